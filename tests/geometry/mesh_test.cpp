@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 
+#include "core/geometry/exact_shape.hpp"
+#include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
@@ -72,6 +75,41 @@ void check_turns(const std::vector<Hit>& hits, const Ray& ray) {
     const double along = glm::dot(hits[i].normal, ray.direction) / glm::length(ray.direction);
     if (std::abs(along) > 1e-9) REQUIRE((along < 0) == hits[i].entering);
   }
+}
+
+/// Adds another mesh, moved and scaled.
+void add(TriangleList& list, const TriangleList& other, const Vec3& place, double scale) {
+  const auto first = static_cast<std::uint32_t>(list.positions.size());
+  for (const Vec3& position : other.positions) list.positions.push_back(place + scale * position);
+  for (const auto& [a, b, c] : other.triangles) {
+    list.triangles.push_back({first + a, first + b, first + c});
+  }
+}
+
+/// Returns a mesh of several parts, side by side, in one another or passing through one another.
+TriangleList parts(Random& random, int count) {
+  TriangleList list;
+  for (int i = 0; i < count; ++i) {
+    add(list, random_mesh(random), 1.5 * random.in_cube(), random.uniform(0.1, 1));
+  }
+  return list;
+}
+
+/// Turns some triangles round, or takes some away.
+void spoil(Random& random, TriangleList& mesh, bool open) {
+  for (int i = 0; i < 5; ++i) {
+    const std::size_t triangle = random.bits() % mesh.triangles.size();
+    if (!open) {
+      std::swap(mesh.triangles[triangle][0], mesh.triangles[triangle][1]);
+    } else if (mesh.triangles.size() > 1) {
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(triangle));
+    }
+  }
+}
+
+bool are_alike(const core::Crossing& a, const core::Crossing& b) {
+  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.face == b.face &&
+         a.entering == b.entering;
 }
 
 }  // namespace
@@ -218,6 +256,86 @@ TEST_CASE("a ray that starts on a triangle is inside at once if it leaves into t
     }
   }
   CHECK(starts > 2000);
+}
+
+TEST_CASE("what is left out after the first crossing that is asked for changes nothing before it") {
+  Random random(8);
+  int ended = 0;
+  int asked = 0;
+  for (int round = 0; round < 120; ++round) {
+    TriangleList mesh = round % 2 == 0 ? random_mesh(random) : parts(random, 1 + round % 5);
+    if (round % 6 == 5) spoil(random, mesh, round % 4 == 1);
+    const Primitive primitive = Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles)};
+    const auto shape = core::make_shape(primitive);
+    const auto exact = core::make_exact_shape(primitive);
+    for (int i = 0; i < 200; ++i) {
+      const Ray ray = hard_ray(random, mesh);
+      core::ObjectRay line{.origin = ray.origin, .direction = ray.direction};
+      for (const bool is_exact : {false, true}) {
+        const auto crossings = [&](core::CrossingList& list) {
+          const core::ExactRay exact_line{
+              .near = line, .world_origin = line.origin, .world_direction = line.direction};
+          return is_exact ? exact->crossings(exact_line, list) : shape->crossings(line, list);
+        };
+        core::CrossingList all;
+        line.first_above = std::numeric_limits<double>::infinity();
+        const bool inside = crossings(all);
+        core::CrossingList some;
+        line.first_above = random.one_in(3) ? -1e9 : random.uniform(-2, 12);
+        REQUIRE(crossings(some) == inside);
+        if (!shape->is_solid()) continue;
+        REQUIRE(some.size() <= all.size());
+        for (std::size_t k = 0; k < some.size(); ++k) REQUIRE(are_alike(some[k], all[k]));
+        ++asked;
+        if (some.size() == all.size()) continue;
+        REQUIRE(line.is_first_asked(some.back()));
+        REQUIRE(some.back().has_rest);
+        ++ended;
+      }
+    }
+  }
+  CHECK(ended > 5000);
+  CHECK(asked > 30000);
+}
+
+TEST_CASE(
+    "a mesh knows on which side of its triangles the solid is where they do not meet others") {
+  using core::Facing;
+  Random random(9);
+  const auto count = [](const TriangleList& list, Facing facing) {
+    const auto mesh = mesh_triangles(list.positions, list.triangles);
+    std::uint32_t found = 0;
+    for (std::uint32_t i = 0; i < mesh->size(); ++i) {
+      found += mesh->plane_of(i).faces() == facing ? 1 : 0;
+    }
+    return found;
+  };
+  const TriangleList ball = ball_mesh(random, 5, 0.05);
+  const auto size = static_cast<std::uint32_t>(ball.triangles.size());
+  CHECK(count(ball, Facing::outwards) == size);
+  const TriangleList voxels = Voxels(random, 5).mesh();
+  CHECK(count(voxels, Facing::outwards) == voxels.triangles.size());
+  SUBCASE("a ball in a ball is a hole") {
+    TriangleList nested = ball;
+    add(nested, ball, {0.1, 0, 0}, 0.5);
+    CHECK(count(nested, Facing::outwards) == size);
+    CHECK(count(nested, Facing::inwards) == size);
+  }
+  SUBCASE("balls that pass through one another have triangles on both sides of each other") {
+    TriangleList chain = ball;
+    add(chain, ball, {0.8, 0, 0}, 1);
+    CHECK(count(chain, Facing::unknown) > 10);
+    CHECK(count(chain, Facing::inwards) > size / 5);
+    CHECK(count(chain, Facing::outwards) > size);
+  }
+  SUBCASE("two meshes in one place say nothing, nor does one whose triangles are turned") {
+    TriangleList twice = ball;
+    add(twice, ball, {0, 0, 0}, 1);
+    CHECK(count(twice, Facing::unknown) == 2 * size);
+    TriangleList turned = ball;
+    std::swap(turned.triangles[7][0], turned.triangles[7][1]);
+    CHECK(count(turned, Facing::unknown) == size);
+  }
 }
 
 TEST_CASE("corners are one where they are equal, and triangles without an area close gaps") {

@@ -172,5 +172,8 @@ TEST_CASE("whole numbers side by side have the same bits as one by one") {
       }
       REQUIRE(reversed(std::uint32_t{bits[i]}) == backwards[i]);
     }
+    const auto bytes = std::bit_cast<std::array<std::uint8_t, 8>>(next());
+    const Lanes numbers = lanes_of_bytes(&bytes[2]);
+    for (std::size_t i = 0; i < lane_count; ++i) REQUIRE(numbers[i] == bytes[i + 2]);
   }
 }

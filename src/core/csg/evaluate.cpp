@@ -2,66 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <tuple>
 
 namespace crt::core {
 
-RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
-                       std::span<const FaceSurface> face_surfaces, const StartPoint& start) {
-  if (start.surface == nothing) return {};
-  const auto on_face = [&](std::uint32_t face) {
-    const bool outside =
-        (start.side == Side::outside) != face_surfaces[leaf.first_face + face].flipped;
-    return RayStart{.face = face,
-                    .side = outside ? Side::outside : Side::inside,
-                    .on_face = start.leaf == index && start.face == face};
-  };
-  if (start.leaf == index) return on_face(start.face);
-  // A surface has the number of the first face that lies on it.
-  if (start.surface >= leaf.first_face) {
-    const std::uint32_t face = start.surface - leaf.first_face;
-    return face < leaf.face_count ? on_face(face) : RayStart{};
-  }
-  if (leaf.shared_faces != nullptr) {
-    const auto& faces = leaf.shared_faces->faces;
-    const auto found = std::lower_bound(
-        faces.begin(), faces.end(), start.surface,
-        [](const SharedFaces::Face& face, std::uint32_t wanted) { return face.surface < wanted; });
-    const bool is_found = found != faces.end() && found->surface == start.surface;
-    return is_found ? on_face(found->face) : RayStart{};
-  }
-  if (leaf.face_count > Leaf::few_faces) return {};
-  for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
-    if (face_surfaces[leaf.first_face + face].surface == start.surface) return on_face(face);
-  }
-  return {};
-}
-
-bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                    CrossingList& out, std::uint64_t& escalations) {
-  if (!leaf.exact) return leaf.shape->crossings(object_ray, out);
-  return leaf.exact->crossings(exact_ray(leaf, ray, object_ray, escalations), out);
-}
-
-ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                   std::uint64_t& escalations) {
-  ExactRay exact = leaf.placement->to_object_exactly(ray.origin, ray.direction, object_ray);
-  exact.start_error = ray.start.t_error;
-  exact.escalations = &escalations;
-  return exact;
-}
-
-bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                      const Crossing& crossing) {
-  const SurfacePoint point = leaf.shape->surface_point(object_ray, crossing, false);
-  const Vec3 normal = leaf.placement->normal_to_world(point.normal);
-  const double distance = crossing.t - ray.t_min - crossing.error;
-  return distance * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
-}
-
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A line has at most this many crossings with one surface, as with a torus.
 constexpr std::size_t most_roots = 4;
@@ -81,7 +29,7 @@ bool coincides(const CsgCrossing& first, const CsgCrossing& other) {
 
 CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
                              std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-                             CsgWorkspace& workspace)
+                             CsgWorkspace& workspace, bool first_is_enough)
     : program_(program),
       leaves_of_scene_(leaves),
       leaves_(leaves.subspan(program.first_leaf, program.leaf_count())),
@@ -91,7 +39,8 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
       slabs_(ray.origin, ray.direction, ray.start.t_error),
       part_{ray.t_min - ray.start.t_error, ray.t_max},
       first_stamp_(++workspace.stamp_),
-      exact_(leaves_[0].exact != nullptr) {
+      exact_(leaves_[0].exact != nullptr),
+      first_is_enough_(first_is_enough) {
   if (!program.paths.empty()) {
     paths_.emplace(program.paths, work_.paths_, first_stamp_);
   } else if (work_.nodes_.size() < program.nodes.size()) {
@@ -104,6 +53,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   work_.openings_.clear();
   work_.to_open_.clear();  // holds something where the ray before was stopped
   work_.met_.clear();
+  work_.pieces_.clear();
   work_.to_come_.clear();
   work_.places_ = 0;
   for (const std::uint32_t leaf : program.tree.unbounded()) {
@@ -188,8 +138,11 @@ void CsgEvaluation::open_what_may_coincide() {
   while (!work_.openings_.empty()) {
     const CsgCrossing& first = next_crossing();
     const double next_enter = work_.openings_.front().enter;
-    if (!(next_enter <= first.t + first.error)) return;
-    open_up_to(next_enter);
+    if (next_enter <= first.t + first.error) {
+      open_up_to(next_enter);
+    } else if (work_.pieces_.empty() || !open_pieces_between()) {
+      return;
+    }
   }
 }
 
@@ -202,8 +155,10 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
     object_ray_ = placement_->to_object(ray_.origin, ray_.direction);
   }
   object_ray_.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start);
-  work_.leaf_crossings_.clear();
-  bool inside = leaf_crossings(leaf, ray_, object_ray_, work_.leaf_crossings_, work_.escalations);
+  // In the exact tier crossings that are near to each other are all opened, to be put in order.
+  bool inside = first_is_enough_ && leaf.face_count > Leaf::few_faces && !exact_
+                    ? gather_piece(index, leaf, enter)
+                    : gather_crossings(leaf);
   work_.events += work_.leaf_crossings_.size();
   for (const Crossing& crossing : work_.leaf_crossings_) {
     const FaceSurface& surface = face_surfaces_[leaf.first_face + crossing.face];
@@ -239,6 +194,60 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   if (!inside) return;
   ++work_.stamp_;
   flip_leaf(index);
+}
+
+bool CsgEvaluation::gather_crossings(const Leaf& leaf) {
+  work_.leaf_crossings_.clear();
+  return leaf_crossings(leaf, ray_, object_ray_, work_.leaf_crossings_, work_.escalations);
+}
+
+bool CsgEvaluation::gather_piece(std::uint32_t index, const Leaf& leaf, double& enter) {
+  auto& pieces = work_.pieces_;
+  auto& crossings = work_.leaf_crossings_;
+  auto piece = std::find_if(pieces.begin(), pieces.end(),
+                            [&](const auto& other) { return other.leaf == index; });
+  const bool is_first = piece == pieces.end();
+  if (is_first) {
+    object_ray_.first_above = std::max(asked_above(farthest_start(ray_)), enter);
+    pieces.push_back({.leaf = index, .enter = enter});
+    piece = pieces.end() - 1;
+  } else {
+    const bool is_over = enter != piece->beyond;  // as it has been opened before its turn
+    crossings.clear();
+    if (is_over) return false;
+    enter = piece->enter;
+    object_ray_.start = {};
+    object_ray_.begin = object_ray_.first_above = piece->after;
+  }
+  bool inside = gather_crossings(leaf);
+  object_ray_.begin = -infinity;
+  object_ray_.first_above = infinity;
+  if (!is_first) {
+    // Those that have come already are there again.
+    std::erase_if(crossings, [&](const Crossing& crossing) { return crossing.t <= piece->after; });
+    inside = false;
+  }
+  piece->beyond = infinity;
+  if (crossings.empty() || !crossings.back().has_rest) return inside;
+  const Crossing& last = crossings.back();
+  piece->after = last.t;
+  piece->beyond = last.t + (last.error + 2 * rounding_of(last.t));
+  if (piece->beyond <= part_.leave) put_off(Bvh::Child::leaf(index), piece->beyond);
+  return inside;
+}
+
+bool CsgEvaluation::open_pieces_between() {
+  const CsgCrossing& first = next_crossing();
+  double last = -infinity;
+  for (const CsgWorkspace::ToCome& waiting : work_.to_come_) {
+    const CsgCrossing& crossing = work_.met_[waiting.index];
+    if (&crossing != &first && coincides(first, crossing)) last = std::max(last, crossing.t);
+  }
+  const auto piece = std::find_if(work_.pieces_.begin(), work_.pieces_.end(),
+                                  [&](const auto& other) { return other.beyond <= last; });
+  if (piece == work_.pieces_.end()) return false;
+  open_leaf(piece->leaf, piece->beyond);
+  return true;
 }
 
 void CsgEvaluation::gather_cluster() {

@@ -80,6 +80,14 @@ class CsgWorkspace {
     double enter = 0;
     Bvh::Child child;
   };
+  /// A Piece is how far a leaf of many faces has been followed, whose crossings come piece by
+  /// piece.
+  struct Piece {
+    std::uint32_t leaf = 0;
+    double enter = 0;   ///< where the line enters its box
+    double after = 0;   ///< the t of the last crossing so far
+    double beyond = 0;  ///< where the next opening is that it waits for, or infinity
+  };
   /// A ToCome is one of met_ that is still to come.
   struct ToCome {
     double t = 0;
@@ -89,6 +97,7 @@ class CsgWorkspace {
   std::uint64_t stamp_ = 0;
   std::uint32_t places_ = 0;  ///< resolved along this ray
   CrossingList leaf_crossings_;
+  std::vector<Piece> pieces_;
   std::vector<Opening> openings_;       ///< a heap, the nearest first
   std::vector<std::uint32_t> to_open_;  ///< nodes of the tree that are next
   std::vector<CsgCrossing> met_;        ///< all crossings of this ray so far
@@ -137,7 +146,7 @@ inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& 
 ///
 ///  1. The boxes of the tree are opened in the order in which the line enters them, and no further
 ///     than the next crossing asks for. A leaf whose box is opened puts its crossings among those
-///     to come.
+///     to come. One of many faces, a mesh, may do so piece by piece.
 ///  2. The first of these and all that coincide with it form a *cluster*. Those are crossings that
 ///     the bounds of their errors cannot separate, and those of one surface. In the exact tier the
 ///     former are separated nevertheless (exact_order.hpp).
@@ -153,9 +162,10 @@ inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& 
 /// O(depth) for each crossing, or O(log^2 nodes) if the program is deep.
 class CsgEvaluation {
  public:
+  /// With `first_is_enough` it is rarely asked for more than one crossing.
   CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
                 std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-                CsgWorkspace& workspace);
+                CsgWorkspace& workspace, bool first_is_enough = false);
 
   /// Returns whether the start of the ray (just after t_min) is inside the object.
   bool starts_inside() const { return starts_inside_; }
@@ -183,6 +193,14 @@ class CsgEvaluation {
   bool is_near_next(double t) const;
   void gather_near();
   void open_leaf(std::uint32_t index, double enter);
+  /// Gathers the crossings of a leaf in leaf_crossings_, as leaf_crossings() does.
+  bool gather_crossings(const Leaf& leaf);
+  /// Gathers the next crossings of a leaf of many faces, up to the first that may matter. Whatever
+  /// is beyond waits for another opening. Sets `enter` to where the line enters its box.
+  bool gather_piece(std::uint32_t index, const Leaf& leaf, double& enter);
+  /// Opens what of pieces is before a crossing that coincides with the next one, so that all is
+  /// there in order. Returns whether there was any.
+  bool open_pieces_between();
   /// Counts the handling of one crossing. Whoever may stop the ray is asked now and then.
   void tick() {
     if (++ticks_ % steps_per_look == 0) [[unlikely]]
@@ -227,6 +245,7 @@ class CsgEvaluation {
   bool starts_inside_ = false;
   std::uint64_t ticks_ = 0;
   bool exact_ = false;  ///< the tier
+  bool first_is_enough_;
 };
 
 }  // namespace crt::core

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/large_pages.hpp"
+#include "core/geometry/compact_bvh.hpp"
 #include "core/math/lanes.hpp"
 #include "core/tasks/parallel.hpp"
 
@@ -25,6 +27,8 @@ struct LaneBox {
     upper = max(upper, other_upper);
   }
   void include(const LaneBox& other) { include(other.lower, other.upper); }
+
+  Bounds bounds() const { return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}; }
 
   double half_area() const {
     if (!(lower[0] <= upper[0])) return 0;
@@ -148,9 +152,10 @@ TwoParts split(const Part& part) {
           {part.items.subspan(count), right[best].box, right[best].middles}};
 }
 
-/// A Division is what becomes the children of one node.
+/// A Division is what becomes the children of one node, up to `width` of them.
+template <std::size_t width>
 struct Division {
-  std::array<Part, Bvh::width> parts;
+  std::array<Part, width> parts;
   std::size_t count = 1;
 
   /// Divides the largest part until there are as many as a node has places for, or all are small
@@ -172,7 +177,8 @@ struct Division {
 
 /// A Builder divides the upper nodes level by level, a task a node. What is below them is divided
 /// in pieces of their own, a task a piece. Neither depends on the number of threads.
-class Bvh::Builder {
+template <class Node>
+class BvhOf<Node>::Builder {
  public:
   Builder(std::vector<Node>& nodes, std::uint32_t items_a_leaf, const Workers& workers)
       : nodes_(nodes), items_a_leaf_(items_a_leaf), workers_(workers) {}
@@ -186,19 +192,11 @@ class Bvh::Builder {
   }
 
  private:
+  using Parts = Division<Node::width>;
   struct Pending {
     std::uint32_t node;
     Part part;
   };
-
-  static void set_child(Node& node, std::size_t index, const Part& part, Child child) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      node.lower[axis][index] = part.box.lower[axis];
-      node.upper[axis][index] = part.box.upper[axis];
-    }
-    node.children[index] = child;
-    node.count = std::max(node.count, static_cast<std::uint32_t>(index + 1));
-  }
 
   static std::uint32_t add_node(std::vector<Node>& nodes) {
     nodes.emplace_back();
@@ -215,7 +213,7 @@ class Bvh::Builder {
         lower_parts_.push_back(level[i]);
       }
     }
-    std::vector<std::optional<Division>> divisions(large.size());
+    std::vector<std::optional<Parts>> divisions(large.size());
     for_ranges(large.size(), 1, workers_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         divisions[i].emplace(level[large[i]].part, items_a_leaf_);
@@ -234,17 +232,22 @@ class Bvh::Builder {
                        static_cast<std::uint32_t>(part.items.size()));
   }
 
-  void add_children(std::vector<Node>& nodes, std::uint32_t node, const Division& division,
+  void add_children(std::vector<Node>& nodes, std::uint32_t node, const Parts& division,
                     std::vector<Pending>& pending) const {
+    std::array<Bounds, Node::width> boxes;
+    std::array<Child, Node::width> children{};
     for (std::size_t i = 0; i < division.count; ++i) {
       const Part& part = division.parts[i];
+      boxes[i] = part.box.bounds();
       if (part.items.size() <= items_a_leaf_) {
-        set_child(nodes[node], i, part, leaf_of(part));
+        children[i] = leaf_of(part);
       } else {
         pending.push_back({add_node(nodes), part});
-        set_child(nodes[node], i, part, Child::node(pending.back().node));
+        children[i] = Child::node(pending.back().node);
       }
     }
+    nodes[node] = Node(std::span(boxes).first(division.count),
+                       std::span<const Child>(children).first(division.count));
   }
 
   /// Returns the tree over one part, its root first.
@@ -254,7 +257,7 @@ class Bvh::Builder {
     while (!open.empty()) {
       const Pending pending = open.back();
       open.pop_back();
-      add_children(nodes, pending.node, Division(pending.part, items_a_leaf_), open);
+      add_children(nodes, pending.node, Parts(pending.part, items_a_leaf_), open);
     }
     return nodes;
   }
@@ -273,6 +276,8 @@ class Bvh::Builder {
       count += tree.size() - 1;
     }
     nodes_.reserve(count);
+    const std::size_t more = (nodes_.capacity() - nodes_.size()) * sizeof(Node);
+    ask_for_large_pages(nodes_.data() + nodes_.size(), more);
     nodes_.resize(count);
     for_ranges(trees.size(), 1, workers_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) put(trees[i], lower_parts_[i].node, places[i]);
@@ -281,9 +286,8 @@ class Bvh::Builder {
 
   void put(std::span<Node> tree, std::uint32_t root, std::size_t place) {
     for (Node& node : tree) {
-      for (std::size_t i = 0; i < node.count; ++i) {
-        Child& child = node.children[i];
-        if (!child.is_leaf())
+      for (Child& child : node.children) {
+        if (!child.is_leaf() && child != Child())
           child = Child::node(child.index() - 1 + static_cast<std::uint32_t>(place));
       }
     }
@@ -298,7 +302,25 @@ class Bvh::Builder {
   std::vector<Pending> lower_parts_;
 };
 
-Bvh::Bvh(std::span<const Bounds> boxes, std::uint32_t items_a_leaf, const Workers& workers) {
+PlainNode::PlainNode(std::span<const Bounds> boxes, std::span<const BvhChild> of_boxes)
+    : count(static_cast<std::uint32_t>(boxes.size())) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[static_cast<std::size_t>(axis)][i] = boxes[i].lower[axis];
+      upper[static_cast<std::size_t>(axis)][i] = boxes[i].upper[axis];
+    }
+    children[i] = of_boxes[i];
+  }
+}
+
+CompactNode::CompactNode(std::span<const Bounds> some, std::span<const BvhChild> of_boxes)
+    : boxes(some) {
+  std::copy(of_boxes.begin(), of_boxes.end(), children.begin());
+}
+
+template <class Node>
+BvhOf<Node>::BvhOf(std::span<const Bounds> boxes, std::uint32_t items_a_leaf,
+                   const Workers& workers) {
   std::vector<Item> items;
   items.reserve(boxes.size());
   for (std::uint32_t leaf = 0; leaf < boxes.size(); ++leaf) {
@@ -315,5 +337,8 @@ Bvh::Bvh(std::span<const Bounds> boxes, std::uint32_t items_a_leaf, const Worker
   order_.reserve(items.size());
   for (const Item& item : items) order_.push_back(item.leaf());
 }
+
+template class BvhOf<PlainNode>;
+template class BvhOf<CompactNode>;
 
 }  // namespace crt::core

@@ -39,6 +39,9 @@ struct Crossing {
   std::uint8_t root = 0;
   /// The ray enters the solid; a surface without an inside is met against its normal.
   bool entering = false;
+  /// Crossings after this one were left out, as ObjectRay::first_above allows. It is the last that
+  /// is there, and no other can be in its place. Only meshes say so.
+  bool has_rest = false;
 };
 
 /// A CrossingList has crossings along one ray. It is reused from ray to ray so that no ray

@@ -111,7 +111,8 @@ void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& 
   const CsgProgram& program = scene.programs[object.program];
   WorldRay csg_ray = *ray_;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
-  CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg);
+  CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg,
+                           Kind::takes_one);
   if (!kind().begin(evaluation.starts_inside())) return;
   CsgHit found;
   while (evaluation.next(found)) {

@@ -31,8 +31,16 @@ constexpr Bits reversed(Bits bits) {
   return bits >> 16 | bits << 16;
 }
 
+/// Returns four bytes in a row as numbers.
+inline Lanes lanes_of_bytes(const std::uint8_t* bytes) {
+  return lanes_of(bytes[0], bytes[1], bytes[2], bytes[3]);
+}
+
 }  // namespace plain_bits
 
+#ifndef __AVX2__
+using plain_bits::lanes_of_bytes;
+#endif
 using plain_bits::low_product;
 using plain_bits::reversed;
 
@@ -42,6 +50,12 @@ using plain_bits::reversed;
                                                     std::uint32_t factor) {
   return std::bit_cast<WordLanes>(
       _mm256_mul_epu32(std::bit_cast<__m256i>(numbers), _mm256_set1_epi64x(factor)));
+}
+
+[[gnu::always_inline]] inline Lanes lanes_of_bytes(const std::uint8_t* bytes) {
+  std::int32_t four;
+  std::memcpy(&four, bytes, sizeof four);
+  return std::bit_cast<Lanes>(_mm256_cvtepi32_pd(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(four))));
 }
 
 /// Returns the numbers with the bits in reverse order. It looks the halves of bytes up.

@@ -7,17 +7,19 @@ namespace crt::core {
 
 namespace {
 
+ExactPlane plane_of(const Triangle& triangle) {
+  return ExactPlane::through(triangle.a, triangle.b, triangle.c);
+}
 ExactPlane plane_of(const MeshTriangles& mesh, std::uint32_t triangle) {
-  const auto [a, b, c, material] = mesh.triangle(mesh.plane_of(triangle).first);
-  return ExactPlane::through(a, b, c);
+  return plane_of(mesh.triangle(mesh.plane_of(triangle).first));
 }
 
 class ExactTier final : public MeshTier {
  public:
   ExactTier(const MeshTriangles& mesh, const ExactRay& ray) : mesh_(mesh), ray_(ray) {}
 
-  bool meet(std::uint32_t triangle, Crossing& crossing) const override {
-    const ExactPlane::Meeting meeting = plane_of(mesh_, triangle).meet(ray_);
+  bool meet(const Triangle& triangle, Crossing& crossing) const override {
+    const ExactPlane::Meeting meeting = plane_of(triangle).meet(ray_);
     crossing.t = meeting.t.hi;
     crossing.t_low = meeting.t.lo;
     crossing.error = meeting.error;

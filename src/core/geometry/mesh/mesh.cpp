@@ -9,12 +9,10 @@ namespace {
 
 class StandardTier final : public MeshTier {
  public:
-  StandardTier(const MeshTriangles& mesh, const ObjectRay& ray) : mesh_(mesh), ray_(ray) {
-    ray_.start = {};
-  }
+  explicit StandardTier(const ObjectRay& ray) : ray_(ray) { ray_.start = {}; }
 
-  bool meet(std::uint32_t triangle, Crossing& crossing) const override {
-    const PlaneFace::Meeting meeting = TriangleShape(mesh_.triangle(triangle)).meet(ray_);
+  bool meet(const Triangle& triangle, Crossing& crossing) const override {
+    const PlaneFace::Meeting meeting = TriangleShape(triangle).meet(ray_);
     crossing.t = meeting.t;
     crossing.error = meeting.error;
     return meeting.found;
@@ -25,15 +23,18 @@ class StandardTier final : public MeshTier {
   }
 
  private:
-  const MeshTriangles& mesh_;
   ObjectRay ray_;  ///< without where it starts
 };
 
 }  // namespace
 
-bool MeshShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+bool standard_crossings(const MeshTriangles& mesh, const ObjectRay& ray, CrossingList& out) {
   PassingLine line(ray);
-  return append_crossings(*triangles_, line, StandardTier(*triangles_, ray), out);
+  return append_crossings(mesh, line, StandardTier(ray), out);
+}
+
+bool MeshShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  return standard_crossings(*triangles_, ray, out);
 }
 
 Surface MeshShape::surface(std::uint32_t face) const {

@@ -1,10 +1,13 @@
 #include "core/geometry/mesh/met_triangles.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
-#include "core/geometry/open_nodes.hpp"
+#include "core/geometry/grid_boxes.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -12,6 +15,64 @@ namespace crt::core {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// OpenParts are the parts of a tree that are still to be looked at. They allocate only for trees
+/// that are far deeper than usual.
+class OpenParts {
+ public:
+  struct Part {
+    double enter;  ///< where the line comes to it
+    BvhChild child;
+  };
+
+  bool empty() const { return count_ == 0; }
+  std::size_t count() const { return count_; }
+  void push(const Part& part) {
+    if (count_ < first_.size()) {
+      first_[count_] = part;
+    } else {
+      more_.push_back(part);
+    }
+    ++count_;
+  }
+  Part pop() {
+    --count_;
+    if (count_ < first_.size()) return first_[count_];
+    const Part part = more_.back();
+    more_.pop_back();
+    return part;
+  }
+  /// Puts the last few into the order in which the line comes to them, the nearest last.
+  void sort_from(std::size_t begin) {
+    if (count_ > first_.size()) return;  // their order saves time, and nothing else
+    for (std::size_t i = begin + 1; i < count_; ++i) {
+      const Part part = first_[i];
+      std::size_t place = i;
+      for (; place > begin && first_[place - 1].enter < part.enter; --place) {
+        first_[place] = first_[place - 1];
+      }
+      first_[place] = part;
+    }
+  }
+
+ private:
+  static constexpr std::size_t usual = 256;
+  std::array<Part, usual> first_;
+  std::size_t count_ = 0;
+  std::vector<Part> more_;
+};
+
+/// Returns more than the distance of a crossing's t from where it is, with t_low and the rounding
+/// of a sum with it.
+double reach_of(const Crossing& crossing) {
+  return crossing.error + 4 * rounding_of(crossing.t);
+}
+double lowest(const Crossing& crossing) {
+  return crossing.t - reach_of(crossing);
+}
+double highest(const Crossing& crossing) {
+  return crossing.t + reach_of(crossing);
+}
 
 /// MetTriangles makes one list of crossings.
 class MetTriangles {
@@ -26,21 +87,30 @@ class MetTriangles {
   using Place = CrossingList::iterator;
 
   Place first() const { return list_.begin() + static_cast<std::ptrdiff_t>(begin_); }
-  bool starts_on(std::uint32_t triangle) const {
-    return ray_.start.face != no_face &&
-           mesh_.plane_of(triangle).first == mesh_.plane_of(ray_.start.face).first;
+  bool starts_on(const MeshTriangles::PlaneOf& plane) const {
+    return ray_.start.face != no_face && plane.first == mesh_.plane_of(ray_.start.face).first;
   }
-  void find();
-  void meet(std::uint32_t triangle);
+  bool starts_on(std::uint32_t triangle) const {
+    return ray_.start.face != no_face && starts_on(mesh_.plane_of(triangle));
+  }
+  void find(bool first_is_enough);
+  Crossing meet(const MeshTriangles::Placed& triangle, bool along) const;
+  bool may_be_last(const Crossing& crossing, Facing facing) const;
+  bool leave_out_rest();
+  bool find_all();
   void keep_in_triangle(const Triangle& triangle, Crossing& crossing) const;
   double start_slack() const;
+  double most_overlap() const;
+  double begin_of_line() const { return ray_.begin - start_slack(); }
+  bool is_behind(const Crossing& crossing, BvhChild leaf) const;
   /// Returns the size of all coordinates, which their roundings are relative to.
   double place_size() const { return largest_component(ray_.origin) + mesh_.bounds().farthest(); }
   int order(const Crossing& a, const Crossing& b) const;
   void sort();
   void drop_empty_parts();
-  void agree_with_start();
+  bool agree_with_start();
   bool is_through_origin(const Crossing& crossing) const;
+  bool is_inside_at_begin() const { return ((list_.size() - begin_) % 2 != 0) != rest_is_odd_; }
   Place put_behind(Place met) const;
   void take_turns();
 
@@ -50,17 +120,42 @@ class MetTriangles {
   const MeshTier& tier_;
   CrossingList& list_;
   std::size_t begin_ = 0;
+  double found_up_to_ = infinity;  ///< there may be more crossings beyond, where the last ends
+  std::uint32_t last_ = no_face;   ///< its triangle
+  Facing last_facing_ = Facing::unknown;
+  /// Says that crossings are left out at the end, and whether they are odd in number: whether the
+  /// line is inside after the last that is not.
+  bool has_rest_ = false;
+  bool rest_is_odd_ = false;
 };
 
 bool MetTriangles::append() {
   begin_ = list_.size();
-  find();
+  const bool first_is_enough = ray_.first_above < infinity;
+  find(first_is_enough);
+  if (!mesh_.is_closed()) {
+    sort();
+    return false;
+  }
+  if (found_up_to_ < infinity && !leave_out_rest()) return find_all();
   sort();
-  if (!mesh_.is_closed()) return false;
+  if (ray_.start.face != no_face && !agree_with_start()) return find_all();
+  drop_empty_parts();
+  take_turns();
+  return is_inside_at_begin();
+}
+
+/// Begins again without an end.
+bool MetTriangles::find_all() {
+  list_.resize(begin_);
+  found_up_to_ = infinity;
+  has_rest_ = rest_is_odd_ = false;
+  find(false);
+  sort();
   if (ray_.start.face != no_face) agree_with_start();
   drop_empty_parts();
   take_turns();
-  return (list_.size() - begin_) % 2 != 0;
+  return is_inside_at_begin();
 }
 
 /// Returns how far before its begin a ray that starts on a triangle may meet others that rounding
@@ -71,33 +166,100 @@ double MetTriangles::start_slack() const {
   return share * place_size() / largest_component(ray_.direction);
 }
 
-void MetTriangles::find() {
-  const RaySlabs slabs(ray_.origin, ray_.direction, line_.origin_error());
-  LineSpan part{ray_.begin - start_slack(), infinity};
-  const bool first_is_enough = !mesh_.is_closed() && ray_.first_above < infinity;
-  for_leaves(mesh_.tree(), slabs, part, [&](std::span<const std::uint32_t> triangles) {
-    for (const std::uint32_t triangle : triangles) meet(triangle);
-    if (first_is_enough && list_.size() > begin_) {
-      const Crossing& met = list_.back();
-      if (ray_.is_first_asked(met)) part.leave = std::min(part.leave, met.t + met.error);
-    }
-  });
+/// Returns how far before its box a crossing may be, as far as its error says. Where the line all
+/// but grazes a triangle, that is as far as keep_in_triangle() lets it be.
+double MetTriangles::most_overlap() const {
+  constexpr double roundings = 0x1p-48;
+  const double most_error = mesh_.longest_edge() + roundings * place_size();
+  return 2 * most_error / largest_component(ray_.direction);
 }
 
-void MetTriangles::meet(std::uint32_t triangle) {
-  const Triangle corners = mesh_.triangle(triangle);
-  const int side = line_.crosses(corners.a, corners.b, corners.c);
-  if (side == 0) return;
-  Crossing crossing{.face = triangle, .entering = side < 0};
-  if (starts_on(triangle)) {
-    crossing.t = 0;
-  } else if (tier_.meet(mesh_.plane_of(triangle).first, crossing)) {
+/// Finds the crossings, from near to far. If the first that is asked for is enough, it stops behind
+/// one after which nothing matters, provided that this is alone.
+void MetTriangles::find(bool first_is_enough) {
+  const GridSlabs slabs(ray_.origin, ray_.direction, line_.origin_error());
+  LineSpan part{slabs.to_s(begin_of_line()), infinity};
+  const double margin = mesh_.is_closed() ? most_overlap() : 0;
+  OpenParts open;
+  open.push({-infinity, BvhChild::node(0)});
+  const CompactBvh& tree = mesh_.tree();
+  while (!open.empty()) {
+    const auto [enter, child] = open.pop();
+    if (enter > part.leave) continue;
+    if (!child.is_leaf()) {
+      const std::size_t before = open.count();
+      tree.visit(child.index(), slabs, part, [&](BvhChild next, double place) {
+        open.push({place, next});
+      });
+      open.sort_from(before);
+      continue;
+    }
+    const std::uint32_t all = (1u << child.count()) - 1;
+    const PassingLine::Crossed crossed =
+        line_.crosses(mesh_.placed_corners(child.index(), child.count()), all);
+    for (std::uint32_t left = crossed.along | crossed.against; left != 0; left &= left - 1) {
+      const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
+      const MeshTriangles::Placed& triangle = mesh_.placed()[child.index() + place];
+      const Crossing crossing = meet(triangle, (crossed.along >> place & 1u) != 0);
+      if (is_behind(crossing, child)) continue;
+      list_.push_back(crossing);
+      if (!first_is_enough || !may_be_last(crossing, triangle.plane.faces())) continue;
+      if (!(highest(crossing) < found_up_to_)) continue;
+      found_up_to_ = highest(crossing);
+      part.leave = slabs.to_s(found_up_to_ + margin);
+      last_ = triangle.number;
+      last_facing_ = triangle.plane.faces();
+    }
+  }
+}
+
+/// Returns whether a leaf of the tree is all before the begin, so that only rounding may have put a
+/// crossing in it elsewhere.
+bool MetTriangles::is_behind(const Crossing& crossing, BvhChild leaf) const {
+  const double begin = begin_of_line();
+  if (!(lowest(crossing) <= begin)) return false;
+  Bounds box;
+  for (const MeshTriangles::Placed& placed : mesh_.placed().subspan(leaf.index(), leaf.count())) {
+    const auto [a, b, c, material] = mesh_.corners_of(placed);
+    for (const Vec3& corner : {a, b, c}) box.include(corner);
+  }
+  return RaySlabs(ray_.origin, ray_.direction, line_.origin_error()).span(box).leave < begin;
+}
+
+/// Returns whether nothing matters after a crossing, if it is alone: it is known whether the line
+/// is inside there.
+bool MetTriangles::may_be_last(const Crossing& crossing, Facing facing) const {
+  if (!ray_.is_first_asked(crossing) || !(highest(crossing) < infinity)) return false;
+  if (!mesh_.is_closed()) return true;
+  return facing != Facing::unknown && (ray_.start.face == no_face || lowest(crossing) > 0);
+}
+
+/// Leaves out what is beyond the last crossing that matters. Returns false if that is not alone.
+bool MetTriangles::leave_out_rest() {
+  const auto last = std::find_if(
+      first(), list_.end(), [this](const Crossing& crossing) { return crossing.face == last_; });
+  if (!is_alone(*last, std::span(first(), list_.end()))) return false;
+  has_rest_ = last->has_rest = true;
+  rest_is_odd_ = last->entering == (last_facing_ == Facing::outwards);
+  list_.erase(
+      std::remove_if(first(), list_.end(),
+                     [this](const Crossing& other) { return lowest(other) > found_up_to_; }),
+      list_.end());
+  return true;
+}
+
+Crossing MetTriangles::meet(const MeshTriangles::Placed& triangle, bool along) const {
+  Crossing crossing{.face = triangle.number, .entering = !along};
+  if (starts_on(triangle.plane)) return crossing;
+  const Triangle corners = mesh_.corners_of(triangle);
+  const bool is_first = triangle.plane.first == triangle.number;
+  if (tier_.meet(is_first ? corners : mesh_.triangle(triangle.plane.first), crossing)) {
     keep_in_triangle(corners, crossing);
   } else {
     const double ahead = glm::dot(corners.a - ray_.origin, ray_.direction);
     crossing.t = std::copysign(infinity, ahead);
   }
-  list_.push_back(crossing);
+  return crossing;
 }
 
 /// A line that all but grazes a triangle still meets it between its corners, and nowhere else.
@@ -174,13 +336,13 @@ bool MetTriangles::is_through_origin(const Crossing& crossing) const {
 /// Makes the list agree with the side to which the ray leaves. Next to an edge rounding may have
 /// put its origin beyond another triangle of that edge, which it then meets too often or too
 /// rarely. From an edge itself it may leave past all triangles, without being inside: then it does
-/// not meet its own either.
-void MetTriangles::agree_with_start() {
+/// not meet its own either. Returns false where that may take what was left out.
+bool MetTriangles::agree_with_start() {
   const RayStart& start = ray_.start;
   const auto is_start = [&](const Crossing& crossing) { return starts_on(crossing.face); };
   auto found = std::find_if(first(), list_.end(), is_start);
   if (found == list_.end()) {
-    if (!start.on_face) return;
+    if (!start.on_face) return true;
     found = std::find_if(first(), list_.end(), [](const Crossing& met) { return met.t >= 0; });
     found =
         list_.insert(found, {.t = 0, .face = start.face, .entering = start.side == Side::inside});
@@ -190,7 +352,8 @@ void MetTriangles::agree_with_start() {
   const auto ahead = std::count_if(first(), list_.end(), [&](const Crossing& crossing) {
     return crossing.t > 0 && !is_start(crossing);
   });
-  if ((ahead % 2 != 0) == goes_inside) return;
+  if (((ahead % 2 != 0) != rest_is_odd_) == goes_inside) return true;
+  if (has_rest_) return false;
   auto nearest = list_.end();
   for (auto met = first(); met != list_.end(); ++met) {
     if (is_start(*met) || !is_through_origin(*met)) continue;
@@ -198,18 +361,19 @@ void MetTriangles::agree_with_start() {
   }
   if (nearest == list_.end()) {
     list_.erase(std::remove_if(first(), list_.end(), is_start), list_.end());
-    return;
+    return true;
   }
   Crossing moved = *nearest;
   const bool was_ahead = moved.t > 0;
   list_.erase(nearest);
-  if (was_ahead) return;
+  if (was_ahead) return true;
   const Vec3 size = mesh_.bounds().upper - mesh_.bounds().lower;
   moved.t = unit_roundoff * largest_component(size) / largest_component(ray_.direction);
   moved.t_low = 0;
   moved.error = moved.t;
   list_.push_back(moved);
   sort();
+  return true;
 }
 
 /// Returns the crossing that rounding may have put behind another one, whose turn it is not. There
@@ -227,7 +391,7 @@ MetTriangles::Place MetTriangles::put_behind(Place met) const {
 /// Makes the line enter and leave by turns. Where triangles nearly coincide, rounding may have put
 /// the end of a part before its begin. Such a part is left out, as is one of no length.
 void MetTriangles::take_turns() {
-  bool inside = (list_.size() - begin_) % 2 != 0;
+  bool inside = is_inside_at_begin();
   for (auto met = first(); met != list_.end();) {
     if (met->entering == inside) {
       const auto later = put_behind(met);
@@ -244,6 +408,13 @@ void MetTriangles::take_turns() {
 }
 
 }  // namespace
+
+bool is_alone(const Crossing& crossing, std::span<const Crossing> all) {
+  return std::none_of(all.begin(), all.end(), [&](const Crossing& other) {
+    return other.face != crossing.face && lowest(other) <= highest(crossing) &&
+           lowest(crossing) <= highest(other);
+  });
+}
 
 bool append_crossings(const MeshTriangles& mesh, PassingLine& line, const MeshTier& tier,
                       CrossingList& out) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/geometry/mesh/passing_line.hpp"
 #include "core/geometry/mesh/triangles.hpp"
@@ -19,13 +20,19 @@ class MeshTier {
 
   /// Finds t and its error, where the line meets the plane of a triangle. Returns false if t is
   /// beyond all doubles.
-  virtual bool meet(std::uint32_t triangle, Crossing& crossing) const = 0;
+  virtual bool meet(const Triangle& triangle, Crossing& crossing) const = 0;
   /// Returns the sign of the first t less the second, and 0 if they are equal.
   virtual int order(const Crossing& first, const Crossing& second) const = 0;
 };
 
+/// Returns whether no other of some crossings can be where this one is, whatever their errors.
+bool is_alone(const Crossing& crossing, std::span<const Crossing> all);
+
 /// Appends the crossings of a line with a mesh, as Shape::crossings does.
 bool append_crossings(const MeshTriangles& mesh, PassingLine& line, const MeshTier& tier,
                       CrossingList& out);
+
+/// Appends the crossings of a ray with a mesh in the standard tier.
+bool standard_crossings(const MeshTriangles& mesh, const ObjectRay& ray, CrossingList& out);
 
 }  // namespace crt::core

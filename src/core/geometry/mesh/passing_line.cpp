@@ -1,7 +1,7 @@
 #include "core/geometry/mesh/passing_line.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <bit>
+#include <limits>
 
 #include "core/math/dyadic_vector.hpp"
 #include "core/math/vector.hpp"
@@ -21,41 +21,44 @@ PassingLine::PassingLine(const ObjectRay& near, const ExactRay* ray, double orig
 // Errors. Six products of components make up S, each below 2 m^2 for the largest component m of
 // the offsets. Each is off by 8 roundings at most, those of the offsets and sums among them. An
 // error of the origin changes two factors, one of the direction a third.
-int PassingLine::crosses(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 to_a = a - near_.origin;
-  const Vec3 to_b = b - near_.origin;
-  const Vec3 to_c = c - near_.origin;
-  const Vec3 across_a = glm::cross(direction_, to_a);
-  const Vec3 across_b = glm::cross(direction_, to_b);
-  const std::array<double, 3> volumes = {glm::dot(across_a, to_b), glm::dot(across_b, to_c),
-                                         -glm::dot(across_a, to_c)};
-  const double size =
-      std::max({largest_component(to_a), largest_component(to_b), largest_component(to_c)});
+PassingLine::Crossed PassingLine::crosses(const TriangleLanes& triangles, std::uint32_t some) {
+  const VectorLanes origin = lanes_of(near_.origin);
+  const VectorLanes direction = lanes_of(direction_);
+  const VectorLanes to_a = triangles[0] - origin;
+  const VectorLanes to_b = triangles[1] - origin;
+  const VectorLanes to_c = triangles[2] - origin;
+  const VectorLanes across_a = cross(direction, to_a);
+  const VectorLanes across_b = cross(direction, to_b);
+  const std::array<Lanes, 3> volumes = {dot(across_a, to_b), dot(across_b, to_c),
+                                        -dot(across_a, to_c)};
+  const Lanes size =
+      max(max(largest_component(to_a), largest_component(to_b)), largest_component(to_c));
   constexpr double roundings = 6 * 2 * 8 + 1;
-  const double open =
-      size * (size * (roundings * unit_roundoff + 6 * direction_error_) + 24 * origin_error_);
+  const double by_direction = roundings * unit_roundoff + 6 * direction_error_;
   constexpr double least_size = 0x1p-450;  // so that nothing underflows
-  const bool is_safe = size > least_size;
-  bool left = false;
-  bool right = false;
-  std::array<bool, 3> undecided{};
+  const Lanes open = select(size > least_size, size * (size * by_direction + 24 * origin_error_),
+                            lanes_of(std::numeric_limits<double>::infinity()));
+  std::uint32_t left = 0;
+  std::uint32_t right = 0;
+  std::array<std::uint32_t, 3> decided{};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (is_safe && std::abs(volumes[i]) > open) {
-      left = left || volumes[i] > 0;
-      right = right || volumes[i] < 0;
-    } else {
-      undecided[i] = true;
+    const std::uint32_t to_left = mask_of(volumes[i] > open);
+    const std::uint32_t to_right = mask_of(volumes[i] < -open);
+    decided[i] = to_left | to_right;
+    left |= to_left;
+    right |= to_right;
+  }
+  for (std::uint32_t near = some & ~(left & right); near != 0; near &= near - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(near));
+    const std::uint32_t bit = near & (0u - near);
+    for (std::size_t i = 0; i < 3 && (left & right & bit) == 0; ++i) {
+      if ((decided[i] & bit) != 0) continue;
+      const bool is_left =
+          exact_side(triangles[i].lane(lane), triangles[(i + 1) % 3].lane(lane)) > 0;
+      (is_left ? left : right) |= bit;
     }
   }
-  const std::array<const Vec3*, 3> corners = {&a, &b, &c};
-  for (std::size_t i = 0; i < 3 && !(left && right); ++i) {
-    if (!undecided[i]) continue;
-    const bool is_left = exact_side(*corners[i], *corners[(i + 1) % 3]) > 0;
-    left = left || is_left;
-    right = right || !is_left;
-  }
-  if (left && right) return 0;
-  return left ? 1 : -1;
+  return {.along = some & left & ~right, .against = some & right & ~left};
 }
 
 const ExactLine& PassingLine::exact() {

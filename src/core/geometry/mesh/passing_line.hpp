@@ -16,11 +16,17 @@
 // none of those that it lies in.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 
 #include "core/geometry/exact_ray.hpp"
+#include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
+
+/// TriangleLanes are the corners a, b, c of triangles side by side.
+using TriangleLanes = std::array<VectorLanes, 3>;
 
 class PassingLine {
  public:
@@ -30,8 +36,13 @@ class PassingLine {
   explicit PassingLine(const ExactRay& ray)
       : PassingLine(ray.near, &ray, ray.origin_error, ray.direction_error) {}
 
-  /// Returns whether it crosses a triangle: 1 if along the normal, -1 if against it, and 0 if not.
-  int crosses(const Vec3& a, const Vec3& b, const Vec3& c);
+  /// A Crossed has a bit for each triangle that the line crosses.
+  struct Crossed {
+    std::uint32_t along = 0;    ///< those crossed along their normals
+    std::uint32_t against = 0;  ///< and against them
+  };
+  /// Returns which of the triangles it crosses that have a bit in `some`.
+  Crossed crosses(const TriangleLanes& triangles, std::uint32_t some);
 
   const ObjectRay& near() const { return near_; }
   /// Returns a bound on the distance of near() from the line at its begin.

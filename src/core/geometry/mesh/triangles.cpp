@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/base/large_pages.hpp"
 #include "core/geometry/canonical_plane.hpp"
 #include "core/geometry/checks.hpp"
 #include "core/geometry/exact_plane.hpp"
@@ -24,8 +25,8 @@ namespace {
 }
 
 void check_indices(std::span<const TriangleIndices> triangles, std::size_t positions) {
-  if (triangles.size() > Bvh::most_items || positions > 0xffffffffu) {
-    reject_mesh(fmt::format("a mesh has at most {} triangles", Bvh::most_items), "triangles");
+  if (triangles.size() > BvhChild::most_items || positions > 0xffffffffu) {
+    reject_mesh(fmt::format("a mesh has at most {} triangles", BvhChild::most_items), "triangles");
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t index : triangles[i]) {
@@ -106,22 +107,39 @@ MeshTriangles::MeshTriangles(std::span<const Vec3> positions,
   positions_.assign(positions.begin(), positions.end());
   std::vector<TriangleIndices> welded(triangles.begin(), triangles.end());
   weld(welded);
-  find_open_edges(welded);
-  for (const TriangleIndices& indices : welded) {
-    const auto [a, b, c] = indices;
-    if (has_area({.a = positions_[a], .b = positions_[b], .c = positions_[c]})) {
-      triangles_.push_back(indices);
-    }
-  }
-  if (triangles_.empty()) {
+  std::vector<EdgePair> pairs = find_open_edges(welded);
+  drop_flat(welded, pairs);
+  if (placed_.empty()) {
     reject_mesh("a mesh needs at least one triangle that has an area", "triangles");
   }
-  for (const TriangleIndices& indices : triangles_) {
-    for (const std::uint32_t index : indices) bounds_.include(positions_[index]);
+  for (const Placed& placed : placed_) {
+    Bounds box;
+    for (const std::uint32_t index : placed.corners) box.include(positions_[index]);
+    bounds_.include(box);
+    constexpr double diagonal = 1.75;  // that of a cube, and a little more
+    longest_edge_ = std::max(longest_edge_, diagonal * largest_component(box.upper - box.lower));
   }
   if (is_closed() && oriented_) turn_outwards();
   find_planes();
   build_tree();
+  if (is_closed() && oriented_) find_facing(pairs);
+}
+
+/// Takes those triangles that have an area, and drops the pairs of others.
+void MeshTriangles::drop_flat(std::span<const TriangleIndices> triangles,
+                              std::vector<EdgePair>& pairs) {
+  constexpr std::uint32_t dropped = 0xffffffffu;
+  std::vector<std::uint32_t> numbers(triangles.size(), dropped);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto [a, b, c] = triangles[i];
+    if (!has_area({.a = positions_[a], .b = positions_[b], .c = positions_[c]})) continue;
+    numbers[i] = size();
+    places_.push_back(size());
+    placed_.push_back({.corners = triangles[i], .number = size(), .plane = {}});
+  }
+  for (EdgePair& pair : pairs) pair = {numbers[pair.one], numbers[pair.other]};
+  std::erase_if(pairs,
+                [](const EdgePair& pair) { return pair.one == dropped || pair.other == dropped; });
 }
 
 /// Makes equal corners one, and drops triangles of which two corners are one. What these had for
@@ -137,8 +155,11 @@ void MeshTriangles::weld(std::vector<TriangleIndices>& triangles) {
   });
 }
 
-void MeshTriangles::find_open_edges(std::span<const TriangleIndices> triangles) {
+/// Returns the pairs of triangles that alone have an edge.
+std::vector<EdgePair> MeshTriangles::find_open_edges(std::span<const TriangleIndices> triangles) {
   const std::vector<Edge> edges = edges_of(triangles);
+  std::vector<EdgePair> pairs;
+  pairs.reserve(edges.size() / 2);
   std::size_t count = 0;
   std::size_t open = 0;
   const Edge* first_open = nullptr;
@@ -152,6 +173,7 @@ void MeshTriangles::find_open_edges(std::span<const TriangleIndices> triangles) 
     for (; end < edges.size() && is_same(edges[end]); ++end) upwards += edges[end].upwards ? 1 : 0;
     const std::size_t uses = end - begin;
     oriented_ = oriented_ && 2 * upwards == uses;
+    if (uses == 2) pairs.push_back({edges[begin].triangle, edges[begin + 1].triangle});
     ++count;
     if (uses % 2 != 0) {
       ++open;
@@ -161,13 +183,14 @@ void MeshTriangles::find_open_edges(std::span<const TriangleIndices> triangles) 
     }
     begin = end;
   }
-  if (first_open == nullptr) return;
+  if (first_open == nullptr) return pairs;
   const Vec3& from = positions_[first_open->low];
   const Vec3& to = positions_[first_open->high];
   fault_ = fmt::format(
       "{} of its {} edges belong to an odd number of triangles: the first is from ({}, {}, {}) to "
       "({}, {}, {})",
       open, count, from.x, from.y, from.z, to.x, to.y, to.z);
+  return pairs;
 }
 
 /// Turns all triangles round if their normals point into the solid.
@@ -181,15 +204,14 @@ void MeshTriangles::turn_outwards() {
     volume += glm::dot(relative(corners.a), glm::cross(relative(corners.b), relative(corners.c)));
   }
   if (volume >= 0) return;
-  for (TriangleIndices& indices : triangles_) std::swap(indices[1], indices[2]);
+  for (Placed& placed : placed_) std::swap(placed.corners[1], placed.corners[2]);
 }
 
 void MeshTriangles::find_planes() {
   std::vector<PlaneKey> keys;
-  keys.reserve(triangles_.size());
+  keys.reserve(size());
   for (std::uint32_t i = 0; i < size(); ++i) keys.push_back(plane_key(triangle(i), i));
   std::sort(keys.begin(), keys.end());
-  planes_.resize(triangles_.size());
   std::vector<const PlaneKey*> firsts;  // of the planes with the same key
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const PlaneKey& key = keys[i];
@@ -199,25 +221,73 @@ void MeshTriangles::find_planes() {
     });
     const PlaneKey& first = found != firsts.end() ? **found : key;
     if (found == firsts.end()) firsts.push_back(&key);
-    planes_[key.triangle] = {.first = first.triangle & 0x7fffffffu,
-                             .turned = key.plane.flipped != first.plane.flipped};
+    placed_[places_[key.triangle]].plane = {.first = first.triangle & 0x1fffffffu,
+                                            .turned = key.plane.flipped != first.plane.flipped};
   }
 }
 
 void MeshTriangles::build_tree() {
-  std::vector<Bounds> boxes(triangles_.size());
+  std::vector<Bounds> boxes(placed_.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (const std::uint32_t index : triangles_[i]) boxes[i].include(positions_[index]);
+    for (const std::uint32_t index : placed_[i].corners) boxes[i].include(positions_[index]);
   }
-  constexpr std::uint32_t triangles_a_leaf = 4;
+  constexpr std::uint32_t triangles_a_leaf = lane_count;
   constexpr int one_thread = 1;
-  tree_ = Bvh(boxes, triangles_a_leaf, one_thread);
+  tree_ = CompactBvh(boxes, triangles_a_leaf, one_thread);
+  sort_along_tree(tree_.take_order());
+}
+
+/// Puts triangles and their corners where they follow one another as a line comes to them.
+void MeshTriangles::sort_along_tree(std::span<const std::uint32_t> order) {
+  constexpr std::uint32_t unknown = 0xffffffffu;
+  std::vector<std::uint32_t> moved(positions_.size(), unknown);
+  std::vector<Vec3> positions;
+  std::vector<Placed> sorted;
+  sorted.reserve(placed_.size());
+  ask_for_large_pages(sorted.data(), sorted.capacity() * sizeof(Placed));
+  for (const std::uint32_t number : order) {
+    places_[number] = static_cast<std::uint32_t>(sorted.size());
+    sorted.push_back(placed_[number]);
+    for (std::uint32_t& index : sorted.back().corners) {
+      std::uint32_t& place = moved[index];
+      if (place == unknown) {
+        place = static_cast<std::uint32_t>(positions.size());
+        positions.push_back(positions_[index]);
+      }
+      index = place;
+    }
+  }
+  positions.emplace_back(0.0);
+  positions_ = std::vector<Vec3>();
+  positions_.reserve(positions.size());
+  ask_for_large_pages(positions_.data(), positions_.capacity() * sizeof(Vec3));
+  positions_.assign(positions.begin(), positions.end());
+  placed_ = std::move(sorted);
+}
+
+void MeshTriangles::find_facing(std::span<const EdgePair> pairs) {
+  const std::vector<Facing> facings = core::find_facing(*this, pairs);
+  for (Placed& placed : placed_) {
+    placed.plane.facing = static_cast<std::uint32_t>(facings[placed.number]) & 3u;
+  }
+}
+
+TriangleLanes MeshTriangles::placed_corners(std::uint32_t first, std::uint32_t count) const {
+  TriangleLanes result;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto row = [&](std::uint32_t lane) {
+      const TriangleIndices& corners = placed_[first + std::min(lane, count - 1)].corners;
+      return lanes_at<Lanes>(&positions_[corners[corner]].x);
+    };
+    const std::array<Lanes, lane_count> columns = transposed({row(0), row(1), row(2), row(3)});
+    result[corner] = {columns[0], columns[1], columns[2]};
+  }
+  return result;
 }
 
 std::size_t MeshTriangles::bytes() const {
-  return sizeof *this + positions_.capacity() * sizeof(Vec3) +
-         triangles_.capacity() * sizeof(TriangleIndices) + planes_.capacity() * sizeof(PlaneOf) +
-         tree_.bytes();
+  return sizeof *this + positions_.capacity() * sizeof(Vec3) + placed_.capacity() * sizeof(Placed) +
+         places_.capacity() * sizeof(std::uint32_t) + tree_.bytes();
 }
 
 }  // namespace crt

@@ -1,5 +1,5 @@
 // The triangles of a mesh with what is known of them as a whole: which lie in one plane, whether
-// they enclose a solid, and a BVH over them.
+// they enclose a solid, on which side of each that is, and a BVH over them.
 //
 // Corners are one if they are equal, and only then. Triangles enclose a solid if every edge belongs
 // to an even number of them. A point then is inside if a line from it to infinity crosses an odd
@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "core/geometry/bounds.hpp"
-#include "core/geometry/bvh.hpp"
+#include "core/geometry/compact_bvh.hpp"
+#include "core/geometry/mesh/facing.hpp"
+#include "core/geometry/mesh/passing_line.hpp"
 #include "crt/primitives.hpp"
 
 namespace crt {
@@ -28,18 +30,34 @@ class MeshTriangles {
 
   /// Returns the number of triangles that have an area. They are numbered in the order in which
   /// they were given.
-  std::uint32_t size() const { return static_cast<std::uint32_t>(triangles_.size()); }
-  Triangle triangle(std::uint32_t number) const {
-    const auto [a, b, c] = triangles_[number];
-    return {.a = positions_[a], .b = positions_[b], .c = positions_[c]};
-  }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(placed_.size()); }
+  Triangle triangle(std::uint32_t number) const { return corners_of(placed_[places_[number]]); }
 
   /// A PlaneOf says in which plane a triangle lies: in that of `first`, the first triangle in it.
   struct PlaneOf {
-    std::uint32_t first : 31 = 0;
+    std::uint32_t first : 29 = 0;
     std::uint32_t turned : 1 = 0;  ///< whether their normals are opposite
+    std::uint32_t facing : 2 = 0;
+    /// Returns on which side of the triangle the solid is, as far as that has been proven.
+    core::Facing faces() const { return core::Facing{facing}; }
   };
-  PlaneOf plane_of(std::uint32_t triangle) const { return planes_[triangle]; }
+  PlaneOf plane_of(std::uint32_t triangle) const { return placed_[places_[triangle]].plane; }
+
+  /// A Placed is a triangle as it stands among others that are near to it.
+  struct Placed {
+    TriangleIndices corners;  ///< equal numbers for equal corners
+    std::uint32_t number;
+    PlaneOf plane;
+  };
+  /// Returns the triangles in the order in which the leaves of the tree have them.
+  std::span<const Placed> placed() const { return placed_; }
+  Triangle corners_of(const Placed& placed) const {
+    const auto [a, b, c] = placed.corners;
+    return {.a = positions_[a], .b = positions_[b], .c = positions_[c]};
+  }
+  /// Returns the corners of up to four of placed(), from `first` on. Lanes that are left have those
+  /// of the last.
+  core::TriangleLanes placed_corners(std::uint32_t first, std::uint32_t count) const;
 
   bool is_closed() const { return fault_.empty(); }
   /// Returns whether each edge is used as often in one direction as in the other. The normals then
@@ -49,23 +67,29 @@ class MeshTriangles {
   const std::string& fault() const { return fault_; }
 
   const core::Bounds& bounds() const { return bounds_; }
-  const core::Bvh& tree() const { return tree_; }
+  /// Returns more than the length of any edge.
+  double longest_edge() const { return longest_edge_; }
+  const core::CompactBvh& tree() const { return tree_; }
   std::size_t bytes() const;
 
  private:
   void weld(std::vector<TriangleIndices>& triangles);
-  void find_open_edges(std::span<const TriangleIndices> triangles);
+  std::vector<core::EdgePair> find_open_edges(std::span<const TriangleIndices> triangles);
+  void drop_flat(std::span<const TriangleIndices> triangles, std::vector<core::EdgePair>& pairs);
   void turn_outwards();
   void find_planes();
   void build_tree();
+  void sort_along_tree(std::span<const std::uint32_t> order);
+  void find_facing(std::span<const core::EdgePair> pairs);
 
-  std::vector<Vec3> positions_;
-  std::vector<TriangleIndices> triangles_;
-  std::vector<PlaneOf> planes_;
+  std::vector<Vec3> positions_;  ///< and one more, as lanes are read with one number too many
+  std::vector<Placed> placed_;
+  std::vector<std::uint32_t> places_;  ///< among these, by number
   std::string fault_;
   bool oriented_ = false;
   core::Bounds bounds_;
-  core::Bvh tree_;
+  double longest_edge_ = 0;
+  core::CompactBvh tree_;
 };
 
 }  // namespace crt

@@ -1,0 +1,63 @@
+// What a CSG object asks of one leaf is here: where a ray starts on it, and what the ray crosses.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/csg/evaluate.hpp"
+
+namespace crt::core {
+
+RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
+                       std::span<const FaceSurface> face_surfaces, const StartPoint& start) {
+  if (start.surface == nothing) return {};
+  const auto on_face = [&](std::uint32_t face) {
+    const bool outside =
+        (start.side == Side::outside) != face_surfaces[leaf.first_face + face].flipped;
+    return RayStart{.face = face,
+                    .side = outside ? Side::outside : Side::inside,
+                    .on_face = start.leaf == index && start.face == face};
+  };
+  if (start.leaf == index) return on_face(start.face);
+  // A surface has the number of the first face that lies on it.
+  if (start.surface >= leaf.first_face) {
+    const std::uint32_t face = start.surface - leaf.first_face;
+    return face < leaf.face_count ? on_face(face) : RayStart{};
+  }
+  if (leaf.shared_faces != nullptr) {
+    const auto& faces = leaf.shared_faces->faces;
+    const auto found = std::lower_bound(
+        faces.begin(), faces.end(), start.surface,
+        [](const SharedFaces::Face& face, std::uint32_t wanted) { return face.surface < wanted; });
+    const bool is_found = found != faces.end() && found->surface == start.surface;
+    return is_found ? on_face(found->face) : RayStart{};
+  }
+  if (leaf.face_count > Leaf::few_faces) return {};
+  for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
+    if (face_surfaces[leaf.first_face + face].surface == start.surface) return on_face(face);
+  }
+  return {};
+}
+
+bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                    CrossingList& out, std::uint64_t& escalations) {
+  if (!leaf.exact) return leaf.shape->crossings(object_ray, out);
+  return leaf.exact->crossings(exact_ray(leaf, ray, object_ray, escalations), out);
+}
+
+ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                   std::uint64_t& escalations) {
+  ExactRay exact = leaf.placement->to_object_exactly(ray.origin, ray.direction, object_ray);
+  exact.start_error = ray.start.t_error;
+  exact.escalations = &escalations;
+  return exact;
+}
+
+bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                      const Crossing& crossing) {
+  const SurfacePoint point = leaf.shape->surface_point(object_ray, crossing, false);
+  const Vec3 normal = leaf.placement->normal_to_world(point.normal);
+  const double distance = crossing.t - ray.t_min - crossing.error;
+  return distance * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
+}
+
+}  // namespace crt::core
