@@ -295,7 +295,7 @@ TEST_CASE("an entity's bounds hold it") {
   double lower[3];
   double upper[3];
   REQUIRE(crt_entity_bounds(ball.get(), lower, upper) == CRT_OK);
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     CHECK(lower[axis] <= center[axis] - 2);
     CHECK(lower[axis] == doctest::Approx(center[axis] - 2));
     CHECK(upper[axis] >= center[axis] + 2);
