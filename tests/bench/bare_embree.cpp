@@ -1,5 +1,6 @@
 #include "bare_embree.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "sphere_callbacks.hpp"
@@ -117,16 +118,8 @@ alignas(64) constexpr int all_valid[lanes] = {-1, -1, -1, -1, -1, -1, -1, -1,
 
 class BareEmbree::World {
  public:
-  World(std::span<const Ball> balls, Stand stand)
-      : stand_(stand), device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
-    const RTCGeometry geometry = make(balls);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_);
-    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
-      throw std::runtime_error("Embree refuses the spheres");
-  }
+  World(std::span<const Ball> balls, Stand stand) : World(stand) { take(make(balls)); }
+  explicit World(const Surface& surface) : World(Stand::triangles) { take(make(surface)); }
   World(const World&) = delete;
   World& operator=(const World&) = delete;
   ~World() {
@@ -151,6 +144,35 @@ class BareEmbree::World {
   RTCScene scene() const { return scene_; }
 
  private:
+  explicit World(Stand stand)
+      : stand_(stand), device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {}
+
+  void take(RTCGeometry geometry) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_);
+    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+      throw std::runtime_error("Embree refuses the geometry");
+  }
+
+  RTCGeometry make(const Surface& surface) {
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), surface.positions.size()));
+    for (const auto& position : surface.positions) {
+      for (const double coordinate : position) *vertices++ = static_cast<float>(coordinate);
+    }
+    auto* indices = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(unsigned), surface.triangles.size()));
+    for (const auto& triangle : surface.triangles) {
+      indices = std::copy(triangle.begin(), triangle.end(), indices);
+    }
+    return geometry;
+  }
+
   RTCGeometry make(std::span<const Ball> balls) {
     switch (stand_) {
       case Stand::double_callback:
@@ -222,6 +244,7 @@ class BareEmbree::World {
 
 BareEmbree::BareEmbree(std::span<const Ball> balls, Stand stand)
     : world_(std::make_unique<World>(balls, stand)) {}
+BareEmbree::BareEmbree(const Surface& surface) : world_(std::make_unique<World>(surface)) {}
 BareEmbree::~BareEmbree() = default;
 BareEmbree::BareEmbree(BareEmbree&&) noexcept = default;
 BareEmbree& BareEmbree::operator=(BareEmbree&&) noexcept = default;

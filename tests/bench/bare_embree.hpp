@@ -1,6 +1,8 @@
-// This is the least code that asks Embree for spheres. Our own queries are measured against it.
+// This is the least code that asks Embree for spheres or a mesh. Our own queries are measured
+// against it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,12 +24,19 @@ enum class Flow { coherent, scattered };
 
 struct Answer {
   double t;          ///< infinite if nothing is hit
-  std::uint32_t id;  ///< of the sphere
+  std::uint32_t id;  ///< of the sphere or triangle
+};
+
+/// A Surface is triangles with shared corners.
+struct Surface {
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 class BareEmbree {
  public:
   BareEmbree(std::span<const Ball> balls, Stand stand);
+  explicit BareEmbree(const Surface& surface);
   ~BareEmbree();
   BareEmbree(BareEmbree&&) noexcept;
   BareEmbree& operator=(BareEmbree&&) noexcept;

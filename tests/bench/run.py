@@ -27,7 +27,7 @@ from trade import measure as trade_measure  # noqa: E402
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FULL_SIZE, QUICK_SIZE = Size(1920, 1440), Size(640, 480)
 BUSY = 0.5  # load
-OWN_PARTS = ("embree", "curves")
+OWN_PARTS = ("embree", "meshes", "curves")
 GOOGLE_PARTS = ("render", "queries")
 PROGRAMS = {"python": "ray_queries", **{part: f"bench_{part}" for part in OWN_PARTS + GOOGLE_PARTS}}
 HONESTY = "bench_honesty"

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -43,7 +45,7 @@ TEST_CASE("a line finds in a compact tree all boxes that it meets, and few other
   std::size_t met = 0;
   std::size_t found_too = 0;
   for (const double scale : {1.0, 0x1p-300, 0x1p300}) {
-    for (const std::size_t count : {1, 5, 9, 100, 2000}) {
+    for (const std::size_t count : std::initializer_list<std::size_t>{1, 5, 9, 100, 2000}) {
       const std::vector<Bounds> boxes = random_boxes(random, count, scale);
       const CompactBvh tree(boxes, 4, 1);
       for (int i = 0; i < 100; ++i) {

@@ -54,6 +54,7 @@ def write_speed(folder: pathlib.Path, results: dict, machine: str) -> None:
              "povray, BSP tree": tables.bsp_table(results),
              "threads": tables.threads_table(results),
              "embree": tables.embree_table(results),
+             "meshes": tables.meshes_table(results),
              "curves": with_plot("Nanoseconds a ray against the number of solids",
                                  "speed_curves.svg",
                                  tables.curves_table(results))}

@@ -160,6 +160,25 @@ def embree_table(results: dict) -> str:
             " one by one for scattered ones):\n\n" + table(head, ratios))
 
 
+def meshes_table(results: dict) -> str:
+    if "meshes" not in results:
+        return ""
+    columns: dict[tuple, dict[str, dict]] = {}
+    for row in results["meshes"]["rows"]:
+        columns.setdefault((row["triangles"], row["flow"]), {})[row["name"]] = row
+    names = list(next(iter(columns.values())))
+    head = [""] + [f"{triangles:.0e}, {flow}".replace("e+0", "e") for triangles, flow in columns]
+    speeds = [[name] + [speed(column[name]) for column in columns.values()] for name in names]
+    ratios = [
+        [f"{name}, over {columns[next(iter(columns))][name]['yardstick']}"]
+        + [f"**{rounded(column[name]['ratio'])}**" for column in columns.values()]
+        for name in names if "CRT" in name
+    ]
+    return ("Millions of rays in a second of one processor, by the number of triangles:\n\n"
+            + table(head, speeds)
+            + "\n\nSpeed as a share of that of a yardstick:\n\n" + table(head, ratios))
+
+
 # ---- cost curves --------------------------------------------------------------------------------
 
 
@@ -193,5 +212,6 @@ def curves_table(results: dict) -> str:
 
 
 def all_tables(results: dict) -> str:
-    makers = (povray_table, bsp_table, threads_table, embree_table, curves_table)
+    makers = (povray_table, bsp_table, threads_table, embree_table, meshes_table,
+              curves_table)
     return "\n\n".join(filter(None, (make(results) for make in makers)))
