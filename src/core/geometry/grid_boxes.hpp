@@ -1,4 +1,4 @@
-// Boxes on a grid of their own are told from each other by bytes, and a line meets eight at a time.
+// Boxes on a grid of their own take a byte a coordinate, and a line meets eight at a time.
 #pragma once
 
 #include <array>
