@@ -11,7 +11,7 @@ Entity extruded(const std::shared_ptr<const Profile>& profile, const Vec3& from,
   core::check_end("to", from, to);
   const auto& [x, y, z] = core::frame_about(to - from);
   if (z == Vec3(0, 0, 1)) {
-    const Entity upright = Extrusion{.profile = profile, .from = from.z, .to = to.z};
+    Entity upright = Extrusion{.profile = profile, .from = from.z, .to = to.z};
     if (from.x == 0 && from.y == 0) return upright;
     return upright.transformed({.translation = {from.x, from.y, 0}});
   }

@@ -19,6 +19,12 @@ struct ExactLine {
   Dyadic weight = 1;
 };
 
+/// Returns the line that a ray's own numbers say.
+inline ExactLine exact_line(const ObjectRay& ray) {
+  return {.origin = exactly(ray.origin) + exactly(ray.origin_low),
+          .direction = exactly(ray.direction) + exactly(ray.direction_low)};
+}
+
 /// t must be known so exactly for its rounding to be within 0.51 ulp.
 inline constexpr double last_bit_tolerance = 0x1p-60;
 

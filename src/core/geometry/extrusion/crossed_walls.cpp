@@ -46,7 +46,7 @@ class CrossedWalls {
   }
   void clip_at_end(std::uint32_t end);
   void find();
-  void meet(std::uint32_t piece);
+  void meet(std::uint32_t number);
   void add_flat(std::uint32_t wall, ShiftMask shifts, const CornerSide& from, const CornerSide& to);
   void add_round(std::uint32_t arc, const ArcCut& cut, const Vec3* corner);
   void unite_at_corners();

@@ -48,16 +48,16 @@ class ExtrusionShape final : public ShapeOfPoints<ExtrusionShape> {
   const CylinderShape& cylinder(std::uint32_t arc) const { return *cylinders_[arc]; }
 
  private:
-  Bounds box_of(std::uint32_t piece) const;
+  Bounds box_of(std::uint32_t number) const;
   template <class Real>
   void write_end_point(const Vec3Of<Real>& offset, std::uint32_t end, bool with_uv,
                        SurfacePointOf<Real>& point) const;
   template <class Real>
-  void write_flat_point(const Vec3Of<Real>& offset, std::uint32_t piece, bool with_uv,
+  void write_flat_point(const Vec3Of<Real>& offset, std::uint32_t number, bool with_uv,
                         SurfacePointOf<Real>& point) const;
   template <class Real>
   void write_round_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
-                         std::uint32_t arc, bool with_uv, SurfacePointOf<Real>& point) const;
+                         std::uint32_t number, bool with_uv, SurfacePointOf<Real>& point) const;
 
   std::shared_ptr<const Profile> profile_;
   Bounds bounds_;

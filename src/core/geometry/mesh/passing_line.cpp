@@ -62,12 +62,7 @@ PassingLine::Crossed PassingLine::crosses(const TriangleLanes& triangles, std::u
 }
 
 const ExactLine& PassingLine::exact() {
-  if (!exact_) {
-    exact_ = ray_ != nullptr
-                 ? ray_->exact()
-                 : ExactLine{.origin = exactly(near_.origin) + exactly(near_.origin_low),
-                             .direction = exactly(near_.direction) + exactly(near_.direction_low)};
-  }
+  if (!exact_) exact_ = ray_ != nullptr ? ray_->exact() : exact_line(near_);
   return *exact_;
 }
 

@@ -38,12 +38,7 @@ PlaneLine::PlaneLine(const ObjectRay& near, const ExactRay* ray, double origin_e
 }
 
 const ExactLine& PlaneLine::exact() {
-  if (!exact_) {
-    exact_ = ray_ != nullptr
-                 ? ray_->exact()
-                 : ExactLine{.origin = exactly(near_.origin) + exactly(near_.origin_low),
-                             .direction = exactly(near_.direction) + exactly(near_.direction_low)};
-  }
+  if (!exact_) exact_ = ray_ != nullptr ? ray_->exact() : exact_line(near_);
   return *exact_;
 }
 
