@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "flows.hpp"
 #include "query_rays.hpp"
 
 namespace crt::bench {
@@ -19,8 +20,6 @@ enum class Stand {
   sphere_point,     ///< RTC_GEOMETRY_TYPE_SPHERE_POINT, Embree's own
   triangles,        ///< one triangle in each sphere's place
 };
-
-enum class Flow { coherent, scattered };
 
 struct Answer {
   double t;          ///< infinite if nothing is hit

@@ -76,8 +76,8 @@ class Comparison {
                                median(seconds[i]) / static_cast<double>(rays.size()) * 1e9);
       rows.push_back(fmt::format(
           R"({{"spheres": {}, "flow": "{}", "rays": {}, "name": "{}", "seconds": [{}]}})",
-          balls_.size(), flow == Flow::coherent ? "coherent" : "scattered", rays.size(),
-          contenders[i].name, fmt::join(seconds[i], ", ")));
+          balls_.size(), name_of(flow), rays.size(), contenders[i].name,
+          fmt::join(seconds[i], ", ")));
     }
     return rows;
   }
@@ -164,8 +164,7 @@ class Comparison {
       const double found = sum(name);
       if (std::abs(found - expected) > grazing_share * expected) {
         throw std::runtime_error(fmt::format("{} finds other spheres ({} rays): {} and {}", name,
-                                             flow == Flow::coherent ? "coherent" : "scattered",
-                                             found, expected));
+                                             name_of(flow), found, expected));
       }
     }
   }
@@ -193,11 +192,7 @@ std::vector<std::string> run(bool quick) {
   for (const int count : {10'000, quick ? 100'000 : 1'000'000}) {
     std::cerr << fmt::format("{} spheres: building\n", count);
     Comparison comparison(count, side);
-    for (const Flow flow : {Flow::coherent, Flow::scattered}) {
-      std::cerr << fmt::format("{} spheres, {} rays\n", count,
-                               flow == Flow::coherent ? "coherent" : "scattered");
-      for (std::string& row : comparison.run(flow, rounds)) rows.push_back(std::move(row));
-    }
+    run_flows(comparison, fmt::format("{} spheres", count), rounds, rows);
   }
   return rows;
 }

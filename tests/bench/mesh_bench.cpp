@@ -144,8 +144,8 @@ class Comparison {
       rows.push_back(fmt::format(
           R"({{"triangles": {}, "flow": "{}", "rays": {}, "name": "{}", "yardstick": "{}", )"
           R"("ratio": {}, "seconds": [{}]}})",
-          surface_.triangles.size(), flow == Flow::coherent ? "coherent" : "scattered", count, name,
-          all[i].yardstick, share, fmt::join(seconds[i], ", ")));
+          surface_.triangles.size(), name_of(flow), count, name, all[i].yardstick, share,
+          fmt::join(seconds[i], ", ")));
     }
     return rows;
   }
@@ -196,11 +196,7 @@ std::vector<std::string> run(bool quick) {
   std::vector<std::string> rows;
   for (const int n : {142, 500}) {  // 8e4 and 1e6 triangles
     Comparison comparison(n, side);
-    for (const Flow flow : {Flow::coherent, Flow::scattered}) {
-      std::cerr << fmt::format("{} triangles, {} rays\n", 4 * n * n,
-                               flow == Flow::coherent ? "coherent" : "scattered");
-      for (std::string& row : comparison.run(flow, rounds)) rows.push_back(std::move(row));
-    }
+    run_flows(comparison, fmt::format("{} triangles", 4 * n * n), rounds, rows);
   }
   return rows;
 }

@@ -6,9 +6,9 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
+#include "core/base/sort_by_insertion.hpp"
 #include "core/prepare/prepared_data.hpp"
 #include "core/render/media.hpp"
 
@@ -34,17 +34,6 @@ MediaLists::List entered_in_order(MediaLists& media, MediaLists::List list, cons
     const RayHit other = exit_of(around);
     return own.t < other.t || same_end(own, other);
   });
-}
-
-/// Sorts by insertion, which needs no strict order. If two ends are at one place with a third, they
-/// need not be at one place themselves.
-template <class Item, class ComesFirst>
-void sort_by_insertion(std::vector<Item>& items, const ComesFirst& comes_first) {
-  for (std::size_t i = 1; i < items.size(); ++i) {
-    for (std::size_t k = i; k > 0 && comes_first(items[k], items[k - 1]); --k) {
-      std::swap(items[k], items[k - 1]);
-    }
-  }
 }
 
 /// Sorts solids that are entered at one place by the order in which to enter them.

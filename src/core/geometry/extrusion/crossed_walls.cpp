@@ -7,6 +7,7 @@
 
 #include "core/geometry/extrusion/agree_with_start.hpp"
 #include "core/geometry/open_nodes.hpp"
+#include "core/geometry/order_of_places.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -210,12 +211,9 @@ void CrossedWalls::unite_at_corners() {
 }
 
 int CrossedWalls::order(const Crossing& a, const Crossing& b) const {
-  const auto compared = [](double x, double y) { return x < y ? -1 : (x > y ? 1 : 0); };
-  if (!std::isfinite(a.t) || !std::isfinite(b.t)) return compared(a.t, b.t);
-  const double distance = (a.t - b.t) + (a.t_low - b.t_low);
-  const bool is_start = starts_on(a.face) || starts_on(b.face);
-  if (!is_start && std::abs(distance) <= a.error + b.error) return tier_.order(a, b);
-  return compared(distance, 0);
+  return order_of_places(
+      a, b, [this](std::uint32_t face) { return starts_on(face); },
+      [this](const Crossing& one, const Crossing& other) { return tier_.order(one, other); });
 }
 
 /// Corrects the error of a crossing so near to another one that this may be meant.

@@ -1,13 +1,14 @@
 #include "core/geometry/mesh/met_triangles.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <vector>
 
+#include "core/base/sort_by_insertion.hpp"
 #include "core/geometry/grid_boxes.hpp"
+#include "core/geometry/open_nodes.hpp"
+#include "core/geometry/order_of_places.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -16,50 +17,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// OpenParts are the parts of a tree that are still to be looked at. They allocate only for trees
-/// that are far deeper than usual.
-class OpenParts {
- public:
-  struct Part {
-    double enter;  ///< where the line comes to it
-    BvhChild child;
-  };
-
-  bool empty() const { return count_ == 0; }
-  std::size_t count() const { return count_; }
-  void push(const Part& part) {
-    if (count_ < first_.size()) {
-      first_[count_] = part;
-    } else {
-      more_.push_back(part);
-    }
-    ++count_;
-  }
-  Part pop() {
-    --count_;
-    if (count_ < first_.size()) return first_[count_];
-    const Part part = more_.back();
-    more_.pop_back();
-    return part;
-  }
-  /// Puts the last few into the order in which the line comes to them, the nearest last.
-  void sort_from(std::size_t begin) {
-    if (count_ > first_.size()) return;  // their order saves time, and nothing else
-    for (std::size_t i = begin + 1; i < count_; ++i) {
-      const Part part = first_[i];
-      std::size_t place = i;
-      for (; place > begin && first_[place - 1].enter < part.enter; --place) {
-        first_[place] = first_[place - 1];
-      }
-      first_[place] = part;
-    }
-  }
-
- private:
-  static constexpr std::size_t usual = 256;
-  std::array<Part, usual> first_;
-  std::size_t count_ = 0;
-  std::vector<Part> more_;
+/// A TreePart is still to be looked at.
+struct TreePart {
+  double enter;  ///< where the line comes to it
+  BvhChild child;
 };
 
 /// Returns more than the distance of a crossing's t from where it is, with t_low and the rounding
@@ -98,6 +59,7 @@ class MetTriangles {
   bool may_be_last(const Crossing& crossing, Facing facing) const;
   bool leave_out_rest();
   bool find_all();
+  bool finish();
   void keep_in_triangle(const Triangle& triangle, Crossing& crossing) const;
   double start_slack() const;
   double most_overlap() const;
@@ -138,6 +100,11 @@ bool MetTriangles::append() {
     return false;
   }
   if (found_up_to_ < infinity && !leave_out_rest()) return find_all();
+  return finish();
+}
+
+/// Makes the list of a solid what it is to be. Returns whether the line is inside at its begin.
+bool MetTriangles::finish() {
   sort();
   if (ray_.start.face != no_face && !agree_with_start()) return find_all();
   drop_empty_parts();
@@ -151,11 +118,7 @@ bool MetTriangles::find_all() {
   found_up_to_ = infinity;
   has_rest_ = rest_is_odd_ = false;
   find(false);
-  sort();
-  if (ray_.start.face != no_face) agree_with_start();
-  drop_empty_parts();
-  take_turns();
-  return is_inside_at_begin();
+  return finish();
 }
 
 /// Returns how far before its begin a ray that starts on a triangle may meet others that rounding
@@ -180,7 +143,8 @@ void MetTriangles::find(bool first_is_enough) {
   const GridSlabs slabs(ray_.origin, ray_.direction, line_.origin_error());
   LineSpan part{slabs.to_s(begin_of_line()), infinity};
   const double margin = mesh_.is_closed() ? most_overlap() : 0;
-  OpenParts open;
+  constexpr std::size_t usual = 256;
+  OpenNodes<TreePart, usual> open;
   open.push({-infinity, BvhChild::node(0)});
   const CompactBvh& tree = mesh_.tree();
   while (!open.empty()) {
@@ -191,7 +155,9 @@ void MetTriangles::find(bool first_is_enough) {
       tree.visit(child.index(), slabs, part, [&](BvhChild next, double place) {
         open.push({place, next});
       });
-      open.sort_from(before);
+      // The nearest comes last. This order saves time, and nothing else.
+      sort_by_insertion(open.from(before),
+                        [](const TreePart& a, const TreePart& b) { return a.enter > b.enter; });
       continue;
     }
     const std::uint32_t all = (1u << child.count()) - 1;
@@ -286,12 +252,9 @@ void MetTriangles::keep_in_triangle(const Triangle& triangle, Crossing& crossing
 }
 
 int MetTriangles::order(const Crossing& a, const Crossing& b) const {
-  const auto compared = [](double x, double y) { return x < y ? -1 : (x > y ? 1 : 0); };
-  if (!std::isfinite(a.t) || !std::isfinite(b.t)) return compared(a.t, b.t);
-  const double distance = (a.t - b.t) + (a.t_low - b.t_low);
-  const bool is_start = starts_on(a.face) || starts_on(b.face);
-  if (!is_start && std::abs(distance) <= a.error + b.error) return tier_.order(a, b);
-  return compared(distance, 0);
+  return order_of_places(
+      a, b, [this](std::uint32_t face) { return starts_on(face); },
+      [this](const Crossing& one, const Crossing& other) { return tier_.order(one, other); });
 }
 
 void MetTriangles::sort() {

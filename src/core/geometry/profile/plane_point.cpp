@@ -1,7 +1,6 @@
 // A ray along z is a point of the profile's plane. It is in the profile if all points next to it
 // are. Where walls pass through the point, parity is asked of the points that are moved by (e, e^2)
-// and by
-// (-e, -e^2), for an infinitely small e, and the walls must cancel in pairs.
+// and by (-e, -e^2), for an infinitely small e, and the walls must cancel in pairs.
 #include <algorithm>
 #include <limits>
 #include <vector>
