@@ -22,6 +22,32 @@ std::span<const std::size_t> field_ends();
 template <class Struct>
 Struct defaults();
 
+// Each struct's own is defined beside what reads the struct.
+template <>
+crt_pattern defaults<crt_pattern>();
+template <>
+crt_material defaults<crt_material>();
+template <>
+crt_light defaults<crt_light>();
+template <>
+crt_camera defaults<crt_camera>();
+template <>
+crt_background defaults<crt_background>();
+template <>
+crt_settings defaults<crt_settings>();
+template <>
+crt_render_options defaults<crt_render_options>();
+template <>
+crt_prepare_options defaults<crt_prepare_options>();
+template <>
+crt_write_options defaults<crt_write_options>();
+template <>
+crt_script_options defaults<crt_script_options>();
+template <>
+crt_diagnostic defaults<crt_diagnostic>();
+template <>
+crt_diagnostic_call defaults<crt_diagnostic_call>();
+
 inline constexpr std::size_t size_field = sizeof(std::uint32_t);
 /// No struct will ever be larger than this. A larger size is a mistake.
 inline constexpr std::size_t largest_struct = 1 << 16;

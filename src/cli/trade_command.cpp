@@ -212,7 +212,6 @@ class Trade {
     report.uncertainty = {.rmse = difference.rmse / 2, .p999 = difference.p999 / 2};
     report.reference_samples = renders[0].samples + renders[1].samples;
     report.reference_most_samples = 2 * request_.reference_samples;
-    constexpr double steps_of_8_bits = 255;
     report.reference_cutoff = steps_of_8_bits * renders[0].cutoff;
     return means;
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "cli/trade_measure.hpp"
+
 namespace crt::cli {
 
 namespace {
@@ -30,8 +32,6 @@ constexpr TargetRung targets[] = {{8, 20}, {4, 25}, {2, 40}, {1, 60}, {0.5, 120}
 /// Depths and precisions are tried with this target, which is good enough to show what they do.
 constexpr TargetRung target_of_others = {1, 60};
 constexpr int depths[] = {0, 1, 2, 4, 8, 16};
-
-constexpr double steps_of_8_bits = 255;
 
 /// Returns a target error with as many digits as the command line gets.
 double target_error(double steps) {

@@ -8,8 +8,6 @@ namespace crt::cli {
 
 namespace {
 
-constexpr double steps_of_8_bits = 255;
-
 double shown(float value, double exponent) {
   const double level = value > 0 ? std::min(double{value}, 1.0) : 0.0;
   return exponent == 1 ? level : std::pow(level, exponent);

@@ -11,6 +11,8 @@
 
 namespace crt::cli {
 
+inline constexpr double steps_of_8_bits = 255;
+
 /// A PictureError is in steps of an 8-bit picture, but not rounded to whole ones.
 struct PictureError {
   double rmse = 0;  ///< root of the mean square over all pixels and red, green and blue

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,9 @@ class Arguments {
   std::span<const Value> values_;
   std::span<const Expression* const> expressions_;
 };
+
+/// The most arguments of a built-in that takes any number of them.
+inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
 struct Builtin {
   std::string_view name;

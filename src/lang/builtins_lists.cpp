@@ -12,8 +12,6 @@ namespace crt::lang {
 
 namespace {
 
-constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
-
 Value count_items(const Arguments& arguments) {
   if (const auto* list = std::get_if<List>(&arguments[0]))
     return static_cast<std::int64_t>((*list)->items.size());
@@ -91,7 +89,7 @@ Value print(const Arguments& arguments) {
   return Nothing{};
 }
 
-constexpr std::array table = {
+constexpr std::array lists_table = {
     Builtin{"len", "len(list)", 1, 1, count_items},
     Builtin{"range", "range(first, end, step)", 1, 3, range},
     Builtin{"str", "str(value)", 1, 1, text},
@@ -101,7 +99,7 @@ constexpr std::array table = {
 }  // namespace
 
 std::span<const Builtin> list_builtins() {
-  return table;
+  return lists_table;
 }
 
 }  // namespace crt::lang

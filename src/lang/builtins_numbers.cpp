@@ -14,8 +14,6 @@ namespace crt::lang {
 
 namespace {
 
-constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
-
 template <double (*function)(double)>
 Value of_number(const Arguments& arguments) {
   return function(arguments.number(0));
@@ -143,7 +141,7 @@ Value noise(const Arguments& arguments) {
   return gradient_noise(point);
 }
 
-constexpr std::array table = {
+constexpr std::array numbers_table = {
     Builtin{"sin", "sin(x)", 1, 1, of_number<sine>},
     Builtin{"cos", "cos(x)", 1, 1, of_number<cosine>},
     Builtin{"tan", "tan(x)", 1, 1, of_number<tangent>},
@@ -169,7 +167,7 @@ constexpr std::array table = {
 }  // namespace
 
 std::span<const Builtin> number_builtins() {
-  return table;
+  return numbers_table;
 }
 
 }  // namespace crt::lang

@@ -46,7 +46,7 @@ Value cross(const Arguments& arguments) {
   return Vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-constexpr std::array table = {
+constexpr std::array vectors_table = {
     Builtin{"vec3", "vec3(x, y, z)", 3, 3, make_vector},
     Builtin{"rgb", "rgb(r, g, b)", 3, 3, make_color},
     Builtin{"rgba", "rgba(r, g, b, a)", 4, 4, make_color},
@@ -59,7 +59,7 @@ constexpr std::array table = {
 }  // namespace
 
 std::span<const Builtin> vector_builtins() {
-  return table;
+  return vectors_table;
 }
 
 }  // namespace crt::lang

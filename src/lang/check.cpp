@@ -49,9 +49,9 @@ std::string meant(std::string_view name) {
   return fmt::format("; there are {}", enumerate(listed, "and"));
 }
 
-class Checker {
+class ScriptChecker {
  public:
-  Checker(int compat, const SymbolTable& symbols, Reporter& reporter)
+  ScriptChecker(int compat, const SymbolTable& symbols, Reporter& reporter)
       : compat_(compat), symbols_(symbols), reporter_(reporter) {}
 
   void check_object(ObjectLiteral& object) {
@@ -135,7 +135,7 @@ class AssignedNames : public TreeWalk<AssignedNames> {
 }  // namespace
 
 void check(Script& script, int compat, const SymbolTable& symbols, Reporter& reporter) {
-  Checker checker(compat, symbols, reporter);
+  ScriptChecker checker(compat, symbols, reporter);
   const Span* settings_span = nullptr;
   const Span* scene_span = nullptr;
   const auto only_one = [&](const Span*& first, const Span& span, const char* name) {

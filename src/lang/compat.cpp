@@ -9,7 +9,7 @@ namespace crt::lang {
 
 namespace {
 
-constexpr std::string_view attribute = "compat";
+constexpr std::string_view compat_attribute = "compat";
 
 /// Reads the tokens of a script up to its Settings' `compat -> 2015`.
 class CompatSearch {
@@ -36,7 +36,7 @@ class CompatSearch {
     const Grammar::symbol_type token = lexer_.next();
     kind_ = token.kind();
     if (kind_ == Kind::S_IDENTIFIER)
-      is_attribute_ = symbols_.name(token.value.as<Symbol>()) == attribute;
+      is_attribute_ = symbols_.name(token.value.as<Symbol>()) == compat_attribute;
     if (kind_ == Kind::S_INTEGER) number_ = token.value.as<std::int64_t>();
   }
 
@@ -68,7 +68,7 @@ class CompatSearch {
 
 std::int64_t written_compat(const SourceMap& sources, const Source& source) {
   // Most scripts do not have the attribute.
-  if (source.text.find(attribute) == std::string::npos) return 0;
+  if (source.text.find(compat_attribute) == std::string::npos) return 0;
   try {
     return CompatSearch(sources, source).number();
   } catch (const GiveUp&) {

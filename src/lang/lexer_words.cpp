@@ -11,38 +11,38 @@ namespace crt::lang {
 
 namespace {
 
-using Token = Grammar::token;
-using Kind = Grammar::symbol_kind;
+using Terminal = Grammar::token;
 
 /// No more modifiers can lie within one another.
 constexpr std::size_t most_open_modifiers = 1000;
 
 struct Word {
   std::string_view text;
-  Token::token_kind_type kind;
+  Terminal::token_kind_type kind;
 };
 
 /// These words have a meaning at the beginning of a modifier alone.
 constexpr std::array modifier_words = {
-    Word{"material", Token::MATERIAL},
-    Word{"id", Token::ID},
-    Word{"matrix", Token::MATRIX},
+    Word{"material", Terminal::MATERIAL},
+    Word{"id", Terminal::ID},
+    Word{"matrix", Terminal::MATRIX},
 };
 
 }  // namespace
 
 /// Returns the kind of a word that is a keyword in some places only, and a name in all others.
-std::optional<Token::token_kind_type> Lexer::keyword_by_place(std::string_view name) const {
+std::optional<Terminal::token_kind_type> Lexer::keyword_by_place(std::string_view name) const {
   if (compat_ == compat_2015) return std::nullopt;
   if (begins_modifier()) {
     const auto* modifier = std::find_if(modifier_words.begin(), modifier_words.end(),
                                         [name](const Word& k) { return k.text == name; });
     if (modifier != modifier_words.end()) return modifier->kind;
   }
-  if (name == "elif" && last_.kind == Kind::S_RIGHT_BRACE && *next_on_line(cursor_) == '(')
-    return Token::ELIF;
+  if (name == "elif" && last_.kind == Grammar::symbol_kind::S_RIGHT_BRACE &&
+      *next_on_line(cursor_) == '(')
+    return Terminal::ELIF;
   if (name == "return" && may_begin_statement() && value_follows(cursor_, true))
-    return Token::RETURN;
+    return Terminal::RETURN;
   return std::nullopt;
 }
 
@@ -123,26 +123,26 @@ bool Lexer::is_closed_on_line(const Byte* position) const {
 
 /// Says whether a modifier begins here: behind the '<' or a comma of modifiers.
 bool Lexer::begins_modifier() const {
-  if (last_.kind == Kind::S_MODIFIER_START) return true;
-  return last_.kind == Kind::S_COMMA && !open_modifiers_.empty() &&
+  if (last_.kind == Grammar::symbol_kind::S_MODIFIER_START) return true;
+  return last_.kind == Grammar::symbol_kind::S_COMMA && !open_modifiers_.empty() &&
          open_modifiers_.back() == open_brackets_.size();
 }
 
 /// Says whether the token before can end a statement or open a block.
 bool Lexer::may_begin_statement() const {
   switch (last_.kind) {
-    case Kind::S_LEFT_BRACE:
-    case Kind::S_RIGHT_BRACE:
-    case Kind::S_RIGHT_PARENTHESIS:
-    case Kind::S_RIGHT_BRACKET:
-    case Kind::S_IDENTIFIER:
-    case Kind::S_INTEGER:
-    case Kind::S_FLOAT:
-    case Kind::S_STRING:
-    case Kind::S_TRUE:
-    case Kind::S_FALSE:
-    case Kind::S_GREATER:
-    case Kind::S_START_SCRIPT:
+    case Grammar::symbol_kind::S_LEFT_BRACE:
+    case Grammar::symbol_kind::S_RIGHT_BRACE:
+    case Grammar::symbol_kind::S_RIGHT_PARENTHESIS:
+    case Grammar::symbol_kind::S_RIGHT_BRACKET:
+    case Grammar::symbol_kind::S_IDENTIFIER:
+    case Grammar::symbol_kind::S_INTEGER:
+    case Grammar::symbol_kind::S_FLOAT:
+    case Grammar::symbol_kind::S_STRING:
+    case Grammar::symbol_kind::S_TRUE:
+    case Grammar::symbol_kind::S_FALSE:
+    case Grammar::symbol_kind::S_GREATER:
+    case Grammar::symbol_kind::S_START_SCRIPT:
       return true;
     default:
       return false;
@@ -150,10 +150,10 @@ bool Lexer::may_begin_statement() const {
 }
 
 Grammar::symbol_type Lexer::less() {
-  if (!modifier_follows()) return sign(Token::LESS);
+  if (!modifier_follows()) return sign(Terminal::LESS);
   if (open_modifiers_.size() < most_open_modifiers)
     open_modifiers_.push_back(open_brackets_.size());
-  return sign(Token::MODIFIER_START);
+  return sign(Terminal::MODIFIER_START);
 }
 
 /// Forgets modifiers that lie in brackets which are closed.
@@ -165,7 +165,7 @@ void Lexer::forget_closed_modifiers() {
 Grammar::symbol_type Lexer::greater() {
   if (!open_modifiers_.empty() && open_modifiers_.back() == open_brackets_.size())
     open_modifiers_.pop_back();
-  return sign(Token::GREATER);
+  return sign(Terminal::GREATER);
 }
 
 bool Lexer::arrow_follows() const {
@@ -175,22 +175,22 @@ bool Lexer::arrow_follows() const {
 
 /// Says whether a word is a keyword in a script of 2015, when there were no control statements and
 /// no imports.
-bool Lexer::is_keyword_of_2015(Token::token_kind_type kind) const {
+bool Lexer::is_keyword_of_2015(Terminal::token_kind_type kind) const {
   const Byte* const next = next_token_start();
   switch (kind) {
-    case Token::WHILE:
-    case Token::IF:
-    case Token::FOR:
+    case Terminal::WHILE:
+    case Terminal::IF:
+    case Terminal::FOR:
       // First on its line a '(' continues nothing.
       return *next == '(' &&
              std::none_of(cursor_, next, [](Byte c) { return c == '\n' || c == '\r'; });
-    case Token::ELSE:
+    case Terminal::ELSE:
       return *next == '{' || next_word() == "if";
-    case Token::IN: {
+    case Terminal::IN: {
       constexpr int tokens_before = 3;
       return for_tokens_ == tokens_before;
     }
-    case Token::IMPORT:
+    case Terminal::IMPORT:
       return *next == '"';
     default:
       return true;

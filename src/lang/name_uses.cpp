@@ -15,8 +15,6 @@ namespace crt::lang {
 
 namespace {
 
-using Kind = NameUses::Kind;
-
 /// Finds what is set and what is read where, in the order of the text.
 class Visitor : public TreeWalk<Visitor> {
  public:
@@ -40,7 +38,7 @@ class Visitor : public TreeWalk<Visitor> {
   }
   void operator()(const MacroLiteral& macro) {
     open_region(macro.body.span);
-    for (const NamePlace& parameter : macro.parameters) bind(parameter, Kind::parameter);
+    for (const NamePlace& parameter : macro.parameters) bind(parameter, NameUses::Kind::parameter);
     visit(macro.body);
     close_region();
   }
@@ -76,12 +74,12 @@ class Visitor : public TreeWalk<Visitor> {
     std::size_t first_shadowing = 0;
   };
 
-  static Kind kind_of(const Expression& value) {
-    if (std::holds_alternative<MacroLiteral>(value.node)) return Kind::macro;
+  static NameUses::Kind kind_of(const Expression& value) {
+    if (std::holds_alternative<MacroLiteral>(value.node)) return NameUses::Kind::macro;
     const auto* object = std::get_if<ObjectLiteral>(&value.node);
     // The check has set the type.
     const bool is_material = object && object->type && object->type->name == "Material";
-    return is_material ? Kind::material : Kind::variable;
+    return is_material ? NameUses::Kind::material : NameUses::Kind::variable;
   }
 
   void open_region(Span span) {
@@ -120,7 +118,7 @@ class Visitor : public TreeWalk<Visitor> {
     regions_.pop_back();
   }
 
-  void bind(const NamePlace& name, Kind kind) {
+  void bind(const NamePlace& name, NameUses::Kind kind) {
     regions_.back().bindings.try_emplace(name.symbol,
                                          NameUses::Binding{.name = name, .kind = kind});
   }
@@ -140,15 +138,15 @@ bool is_read(const NameUses& uses, const NameUses::Binding& binding) {
   return first != reads->second.end() && *first < binding.end_of_reads;
 }
 
-std::string_view word_of(Kind kind) {
+std::string_view word_of(NameUses::Kind kind) {
   switch (kind) {
-    case Kind::variable:
+    case NameUses::Kind::variable:
       return "variable";
-    case Kind::material:
+    case NameUses::Kind::material:
       return "material";
-    case Kind::macro:
+    case NameUses::Kind::macro:
       return "macro";
-    case Kind::parameter:
+    case NameUses::Kind::parameter:
       return "parameter";
   }
   return "";
@@ -170,7 +168,7 @@ const NamePlace* set_further_down(const NameUses& uses, Symbol name, Span place)
       uses.bindings.begin(), uses.bindings.end(), [&](const NameUses::Binding& binding) {
         const bool is_seen =
             binding.region.begin <= place.begin && place.begin < binding.region.end;
-        return binding.name.symbol == name && is_seen && binding.kind != Kind::parameter;
+        return binding.name.symbol == name && is_seen && binding.kind != NameUses::Kind::parameter;
       });
   if (found == uses.bindings.end() || found->name.span.begin <= place.begin) return nullptr;
   return &found->name;
@@ -199,10 +197,10 @@ void warn_of_unused_names(const NameUses& uses, const std::set<Symbol>& read_els
     const std::string_view name = symbols.name(symbol);
     const bool is_read_elsewhere = !binding.is_of_macro && read_elsewhere.contains(symbol);
     if (name.starts_with('_') || is_read_elsewhere || is_read(uses, binding)) continue;
-    const bool hides =
-        binding.is_of_macro && binding.kind != Kind::parameter && top_level.contains(symbol);
+    const bool hides = binding.is_of_macro && binding.kind != NameUses::Kind::parameter &&
+                       top_level.contains(symbol);
     const char* hint = hides ? "; it is the macro's own, as macros never change variables outside"
-                       : binding.kind == Kind::parameter
+                       : binding.kind == NameUses::Kind::parameter
                            ? "; begin its name with '_' if that is meant"
                            : "";
     reporter.warning(binding.name.span,

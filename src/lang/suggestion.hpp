@@ -1,6 +1,7 @@
 // These functions make messages such as "did you mean ...?"
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,8 +24,16 @@ struct Hint {
   std::string_view text;
 };
 
+inline constexpr std::string_view how_to_write_macros =
+    "; a macro is written f = Macro (x) { return x + 1 }";
+
 /// Returns the text of the word's hint, or nothing.
 std::string_view hint_of(std::string_view word, std::span<const Hint> hints);
+
+/// Returns whether one of the names is `name`.
+inline bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 using text::enumerate;
 

@@ -81,10 +81,6 @@ std::vector<std::string> in_words(const std::vector<std::string>& expected) {
   return words;
 }
 
-bool contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 }  // namespace
 
 std::string TreeBuilder::describe_found(Span place, const std::string& found) const {

@@ -13,9 +13,6 @@ namespace crt::lang {
 
 namespace {
 
-constexpr std::string_view how_to_write_macros =
-    "; a macro is written f = Macro (x) { return x + 1 }";
-
 // These words stand before what is unexpected.
 constexpr std::array hints_before = {
     Hint{"not", "; 'not' is written '!'"},
@@ -41,10 +38,6 @@ constexpr std::array<std::string_view, 7> macro_words = {"def", "function", "fun
 
 bool is_number(std::string_view found) {
   return found == "a whole number" || found == "a number";
-}
-
-bool contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 constexpr std::array<std::string_view, 5> looks = {"color", "colour", "texture", "pigment",

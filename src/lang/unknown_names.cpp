@@ -16,7 +16,6 @@ namespace crt::lang {
 namespace {
 
 constexpr std::string_view how_to_set = "; a variable is set by its name alone: x = 1";
-constexpr std::string_view how_to_write_macros = "; a macro is written f = Macro (x) { ... }";
 constexpr std::string_view no_null =
     "; there is no value for nothing; leave the attribute out, or use an empty List";
 

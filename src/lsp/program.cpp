@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_imports = 1000;
 constexpr std::size_t all_errors = std::numeric_limits<std::size_t>::max();
 
-std::filesystem::path without_links(const std::filesystem::path& path) {
+std::filesystem::path canonical_or_given(const std::filesystem::path& path) {
   std::error_code failed;
   const std::filesystem::path canonical = std::filesystem::canonical(path, failed);
   return failed ? path.lexically_normal() : canonical;
@@ -37,7 +37,7 @@ Program::Program(const std::string& text, const std::string& name, const ScriptO
   files_.set_script_directory(directory);
   main_ = &sources_.add(name, text, directory);
   compat_ = compat_of(sources_, *main_, options_);
-  paths_ = {without_links(name), name};
+  paths_ = {canonical_or_given(name), name};
   parse(*main_);
   lang::Reporter unheard(sources_, all_errors);
   tokens_ = lang::read_tokens(*main_, compat_, symbols_, unheard);
@@ -62,7 +62,7 @@ const lang::Script* Program::import_script(const lang::Import& import) {
     if (lang::is_library_path(import.path)) return import_library(import);
     lang::Files::Found found = files_.find(import.path, sources_.source_of(span).directory, span);
     const std::filesystem::path shown = found.shown;
-    const bool is_new = paths_.insert(without_links(found.path)).second;
+    const bool is_new = paths_.insert(canonical_or_given(found.path)).second;
     paths_.insert(shown);
     if (!is_new) return nullptr;
     const std::size_t left =

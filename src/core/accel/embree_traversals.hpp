@@ -56,7 +56,6 @@ struct PacketTraversal {
   FloatLanes far_ends(std::size_t group) const {
     const Lanes& start = t_start[group];
     const Lanes& limit = packet->limits[group];
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const FloatLanes most =
         to_floats(select(limit < start, lanes_of(-infinity), lanes_of(infinity)));
     return min(round_up_length((limit - start) * scale), most);

@@ -22,7 +22,6 @@ class Extent {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   Lanes low_ = lanes_of(infinity);
   Lanes high_ = lanes_of(-infinity);
 };

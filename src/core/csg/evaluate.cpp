@@ -9,8 +9,6 @@ namespace crt::core {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A line has at most this many crossings with one surface, as with a torus.
 constexpr std::size_t most_roots = 4;
 

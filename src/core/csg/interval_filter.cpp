@@ -10,11 +10,7 @@
 
 namespace crt::core {
 
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
                                std::span<const FaceSurface> faces) {

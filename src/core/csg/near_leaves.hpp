@@ -142,7 +142,6 @@ class NearLeaves {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   /// An object with up to this many leaves is small.
   static constexpr std::uint32_t most_small = 32;
 

@@ -321,7 +321,6 @@ template VectorLanes Placement::normal_to_world(const VectorLanes&) const;
 
 Bounds Placement::bounds_to_world(const Bounds& object) const {
   if (kind_ == Kind::identity || object.empty()) return object;
-  constexpr double inf = std::numeric_limits<double>::infinity();
   Bounds result;
   for (int axis = 0; axis < 3; ++axis) {
     // This is interval arithmetic by rows (Arvo, Transforming axis-aligned bounding boxes, Graphics
@@ -340,8 +339,8 @@ Bounds Placement::bounds_to_world(const Bounds& object) const {
                        std::isfinite(second) ? std::abs(second) : 0);
     }
     const double slack = size * (8 * std::numeric_limits<double>::epsilon());
-    result.lower[axis] = std::nextafter(lower - slack, -inf);
-    result.upper[axis] = std::nextafter(upper + slack, inf);
+    result.lower[axis] = std::nextafter(lower - slack, -infinity);
+    result.upper[axis] = std::nextafter(upper + slack, infinity);
   }
   return result;
 }

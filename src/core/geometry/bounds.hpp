@@ -23,9 +23,8 @@ struct Bounds {
   bool empty() const { return lower.x > upper.x || lower.y > upper.y || lower.z > upper.z; }
 
   bool finite() const {
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    return lower.x > -inf && lower.y > -inf && lower.z > -inf && upper.x < inf && upper.y < inf &&
-           upper.z < inf;
+    return lower.x > -infinity && lower.y > -infinity && lower.z > -infinity &&
+           upper.x < infinity && upper.y < infinity && upper.z < infinity;
   }
 
   void include(const Vec3& point) {

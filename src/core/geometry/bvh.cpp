@@ -15,8 +15,6 @@ namespace crt::core {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A LaneBox is a box in vector lanes: x, y, z and one that is not used.
 struct LaneBox {
   Lanes lower = infinity;

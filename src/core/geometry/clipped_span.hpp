@@ -63,8 +63,6 @@ class ClippedSpan {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   bool starts_on_face() const { return start_.face != no_face && start_.on_face; }
 
   RayStart start_;

@@ -67,7 +67,6 @@ class RaySlabs {
   /// returns them.
   static LineSpanLanes spans(const FilterLine<Lanes>& lines, const Bounds& box, std::uint32_t some,
                              const Lanes& origin_errors = Lanes{}) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     LineSpanLanes span{.enter = lanes_of(-infinity), .leave = lanes_of(infinity)};
     LaneMask steep{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -127,7 +126,6 @@ class RaySlabs {
   /// it would have alone.
   template <class Real, class Corners>
   void span_of(const Corners& lowers, const Corners& uppers, Real& enter, Real& leave) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     enter = broadcast<Real>(-infinity);
     leave = broadcast<Real>(infinity);
     for (int axis = 0; axis < 3; ++axis) {

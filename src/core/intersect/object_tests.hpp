@@ -118,7 +118,6 @@ class ObjectTests {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr std::size_t group_size = Packet::group_size;
 
   /// A GroupCrossing has memory for what a group crosses, which is written where it stays.

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/math/double_double.hpp"
 #include "crt/vec.hpp"
 
 namespace crt::core {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// This is the largest relative error of one rounding, u in the comments.
 inline constexpr double unit_roundoff = 0x1p-53;

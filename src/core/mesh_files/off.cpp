@@ -33,7 +33,7 @@ Counts read_counts(TextCursor& cursor) {
   return counts;
 }
 
-void read_face(TextCursor& cursor, MeshBuilder& mesh, std::vector<std::uint32_t>& corners) {
+void read_off_face(TextCursor& cursor, MeshBuilder& mesh, std::vector<std::uint32_t>& corners) {
   const std::int64_t count = cursor.integer("the number of a face's corners");
   const std::size_t line = cursor.line();
   if (count < 3)
@@ -101,7 +101,7 @@ void read_off(std::string_view content, MeshBuilder& mesh) {
     if (cursor.at_end())
       refuse_line(cursor.line(),
                   fmt::format("the file ends after {} of {} faces", i, counts.faces));
-    read_face(cursor, mesh, corners);
+    read_off_face(cursor, mesh, corners);
     cursor.next_line();  // past its colour
   }
   if (!cursor.at_end()) {

@@ -7,14 +7,6 @@ namespace crt::core {
 
 namespace {
 
-/// Returns a * b - c * d with an error of some units in the last place of the result. The method is
-/// Kahan's: see C.-P. Jeannerod, N. Louvet, J.-M. Muller, Math. Comp. 82 (2013).
-double difference_of_products(double a, double b, double c, double d) {
-  const double cd = c * d;
-  const double error = std::fma(-c, d, cd);
-  return std::fma(a, b, -cd) + error;
-}
-
 /// Says whether a direction points up, or straight to the right.
 bool is_upper(double x, double y) {
   return y > 0 || (y == 0 && x > 0);

@@ -154,7 +154,6 @@ inline double users_t(const Ray& users, double t, double t_low) {
   double result = PowerOfTwo(-exponent) * t;
   if (has_all_digits(result)) return result;
   constexpr double step = std::numeric_limits<double>::denorm_min();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   // Halfway between two numbers t_low decides which is nearer.
   const PowerOfTwo lengthen(exponent);
   const double rest = t - lengthen * result;

@@ -10,8 +10,6 @@ namespace crt::core {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// At most so many crossings or nodes are looked through one by one.
 constexpr std::size_t few = 16;
 

@@ -43,7 +43,6 @@ bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> enter;
   std::array<double, 3> leave;
   std::array<double, 3> error;

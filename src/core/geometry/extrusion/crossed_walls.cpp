@@ -14,8 +14,6 @@ namespace crt::core {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A CrossedWall is a crossing of the line with a wall. Its face is not turned.
 struct CrossedWall {
   Crossing crossing;

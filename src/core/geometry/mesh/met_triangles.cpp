@@ -15,8 +15,6 @@ namespace crt::core {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A TreePart is still to be looked at.
 struct TreePart {
   double enter;  ///< where the line comes to it

@@ -118,7 +118,6 @@ Bounds bounds_of(const Profile::Piece& chord, const Profile::Arc& arc) {
       tip[axis] += way;
       if ((side_of(tip, chord.from, chord.to) < 0) != arc.is_right) continue;
       const double beyond = two_sum(arc.center[axis], way).lo;
-      constexpr double infinity = std::numeric_limits<double>::infinity();
       if (beyond != 0) tip[axis] = std::nextafter(tip[axis], std::copysign(infinity, way));
       box.include(tip);
     }

@@ -1,0 +1,25 @@
+# With CMAKE_UNITY_BUILD the sources of one folder are compiled as one. That is for the linter and
+# for the build with sanitizers, which then read a header once a folder and not once a source. So
+# no two sources of a folder may give one name to different things.
+# A name may hide one of another source, though. Whether it does within a source, other builds say.
+target_compile_options(crt_compile INTERFACE -Wno-shadow)
+
+foreach(target crt_core crt_lang crt_capi_objects crt_format crt_lsp crt_trade crt)
+  if(NOT TARGET ${target})
+    continue()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(folder_of_target ${target} SOURCE_DIR)
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder_of_target})
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR ${source} is_generated)
+    if(is_generated)
+      continue() # it is compiled alone
+    endif()
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+endforeach()
