@@ -560,6 +560,17 @@ CRT_API crt_status crt_profile_arc_to(crt_profile* profile, double x, double y, 
  */
 CRT_API crt_status crt_extrusion_create(const crt_profile* profile, const double from[3],
                                         const double to[3], crt_entity** out);
+/**
+ * Makes a revolution: a profile that is turned about the axis from `from` towards `to`. x of the
+ * profile is the distance from the axis, which no corner and no arc may have below 0. y is the
+ * height along the axis from `from` on, in scene units. The turn starts where angles about the axis
+ * begin, as for crt_extrusion_create(). Straight pieces make flat faces and parts of cylinders and
+ * cones, and arcs make parts of spheres and tori. Errors of the profile are reported here, with the
+ * numbers of the contour and the corner.
+ * @param angle  in radians, above 0 and at most a whole turn, which is 2 pi
+ */
+CRT_API crt_status crt_revolution_create(const crt_profile* profile, const double from[3],
+                                         const double to[3], double angle, crt_entity** out);
 
 /**
  * Makes the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No
@@ -1302,9 +1313,9 @@ typedef struct crt_hit_part {
   /**
    * Numbers the faces of the primitive. A box has 0 and 1 across x at its lower and upper end, 2
    * and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side, 1 at
-   * `from`, 2 at `to`. Extrusions have 0 and 1 for the lower and the upper end, and further numbers
-   * for their sides. Meshes have the place of the triangle among those with an area. All others
-   * have 0.
+   * `from`, 2 at `to`. Extrusions have 0 and 1 for the lower and the upper end, and revolutions for
+   * where the turn begins and ends. Both have further numbers for their sides. Meshes have the
+   * place of the triangle among those with an area. All others have 0.
    */
   uint32_t face;
   uint32_t reserved; /**< 0 */

@@ -126,4 +126,11 @@ Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIn
 /// the primitives do.
 Entity extruded(const std::shared_ptr<const Profile>& profile, const Vec3& from, const Vec3& to);
 
+/// Makes a Revolution of a profile about the axis from one point towards another, at least 1e-100
+/// apart. Heights y of the profile are from `from` on, in scene units. It starts where angles about
+/// the axis begin, which extruded() says, and turns by `angle` (in radians). So about the y axis
+/// nothing is rounded. Throws Error (invalid_argument) as the primitives do.
+Entity revolved(const std::shared_ptr<const Profile>& profile, const Vec3& from, const Vec3& to,
+                double angle);
+
 }  // namespace crt

@@ -9,6 +9,7 @@
 #include <crt/vec.hpp>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <variant>
@@ -183,8 +184,23 @@ struct Extrusion {
   std::optional<SharedMaterial> material{};
 };
 
+/// A Revolution has all points that a profile passes as it turns about the y axis. x of the profile
+/// is the distance from the axis, nowhere below 0, and y the height. It starts towards +z, and
+/// turns by `angle` towards +x. Straight pieces that are not level, and corners off the axis, have
+/// at least 1e-100 of height or distance. A straight piece makes a part of a plane, a cylinder or a
+/// cone. An arc makes a part of a torus, or of a sphere if its center is on the axis to 2^-48 of
+/// its radius. Copies share the profile. On the round sides u is the angle as a share of `angle`,
+/// and v the way along the contour. On the two flat ends, which are there if `angle` is less than a
+/// whole turn, (u, v) run along x and y across the profile's bounds. All are in [0, 1].
+struct Revolution {
+  std::shared_ptr<const Profile> profile{};  ///< from make_profile(); must be given
+  /// The angle is in radians, at least 1e-100 and at most 2 pi, which is a whole turn.
+  double angle = 2 * std::numbers::pi;
+  std::optional<SharedMaterial> material{};
+};
+
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle,
-                               Capsule, Mesh, Extrusion>;
+                               Capsule, Mesh, Extrusion, Revolution>;
 
 }  // namespace crt

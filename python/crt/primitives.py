@@ -2,6 +2,7 @@
 Entity.with_material and Entity.with_id do."""
 
 import ctypes
+import math
 import os
 from collections.abc import Sequence
 from typing import Any, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
@@ -29,6 +30,7 @@ __all__ = [
     "HalfPlane",
     "Mesh",
     "Plane",
+    "Revolution",
     "Sphere",
     "Torus",
     "Triangle",
@@ -277,7 +279,7 @@ class Capsule(_Primitive):
         self._create("crt_capsule_create", material, id, shown, a, b, size)
 
 
-def _contours(profile: Sequence[Any]) -> list[list[tuple[float, ...]]]:
+def _contours(name: str, profile: Sequence[Any]) -> list[list[tuple[float, ...]]]:
     """Returns the contours of a profile, which may be one or a sequence of several."""
     wanted = "corners (x, y) or (x, y, bulge), or a sequence of contours of such corners"
     try:
@@ -285,10 +287,24 @@ def _contours(profile: Sequence[Any]) -> list[list[tuple[float, ...]]]:
         contours = [profile] if is_one else profile
         made = [[tuple(map(float, corner)) for corner in contour] for contour in contours]
     except (TypeError, ValueError, IndexError, KeyError):
-        raise _arguments.refusal("Extrusion: profile", wanted, profile) from None
+        raise _arguments.refusal(f"{name}: profile", wanted, profile) from None
     if not all(len(corner) in (2, 3) for contour in made for corner in contour):
-        raise ValueError(f"Extrusion: profile must be {wanted}")
+        raise ValueError(f"{name}: profile must be {wanted}")
     return made
+
+
+def _profile(contours: list[list[tuple[float, ...]]]) -> Reference:
+    """Makes a profile of the contours."""
+    handle = Reference(create("crt_profile_create"), library.crt_profile_release)
+    for contour in contours:
+        for i, (x, y, *bulge) in enumerate(contour):
+            if i == 0:
+                library.crt_profile_move_to(handle, x, y)
+            else:
+                library.crt_profile_arc_to(handle, x, y, *bulge or (0.0,))
+        if contour and len(contour[0]) == 3:
+            library.crt_profile_arc_to(handle, *contour[0])
+    return handle
 
 
 class Extrusion(_Primitive):
@@ -313,18 +329,41 @@ class Extrusion(_Primitive):
         id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(start=start, end=end)
-        contours = _contours(profile)
-        handle = Reference(create("crt_profile_create"), library.crt_profile_release)
-        for contour in contours:
-            for i, (x, y, *bulge) in enumerate(contour):
-                if i == 0:
-                    library.crt_profile_move_to(handle, x, y)
-                else:
-                    library.crt_profile_arc_to(handle, x, y, *bulge or (0.0,))
-            if contour and len(contour[0]) == 3:
-                library.crt_profile_arc_to(handle, *contour[0])
+        contours = _contours("Extrusion", profile)
         shown = {"profile": contours, "start": tuple(a), "end": tuple(b)}
-        self._create("crt_extrusion_create", material, id, shown, handle, a, b)
+        self._create("crt_extrusion_create", material, id, shown, _profile(contours), a, b)
+
+
+class Revolution(_Primitive):
+    """A Revolution is a profile that is turned about the axis from the start towards the end. The
+    profile is as for Extrusion. Its x is the distance from the axis, which is nowhere below 0, and
+    its y is the height from the start on. The angle of the turn is in degrees, above 0 and at most
+    360. The turn begins along z as far as that is across the axis, or along x if the axis is mostly
+    along z."""
+
+    profile = _Given[Any]()
+    start = _Given[Vector]()
+    end = _Given[Vector]()
+    angle = _Given[float]()
+
+    def __init__(
+        self,
+        profile: Sequence[Any],
+        start: Point,
+        end: Point,
+        angle: SupportsFloat = 360,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        a, b = self._vectors(start=start, end=end)
+        contours = _contours("Revolution", profile)
+        turn = self._positive(angle, "angle")
+        shown = {"profile": contours, "start": tuple(a), "end": tuple(b), "angle": turn}
+        handle = _profile(contours)
+        self._create(
+            "crt_revolution_create", material, id, shown, handle, a, b, math.radians(turn)
+        )
 
 
 class Torus(_Primitive):

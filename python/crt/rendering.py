@@ -126,9 +126,10 @@ class Prepared(Handle):
         see `id=` and Entity.with_id. Without any it is the entity's place in the scene. `face`
         numbers the faces of the primitive. A crt.Box has 0 and 1 across x at its lower and upper
         end, 2 and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side,
-        1 at their start and 2 at their end. A crt.Extrusion has 0 at its start, 1 at its end, and
-        further numbers for its sides. Meshes have the place of the triangle among those with an
-        area. All others have 0. A miss has crt.NO_ENTITY for all three.
+        1 at their start and 2 at their end. A crt.Extrusion has 0 at its start and 1 at its end,
+        and a crt.Revolution where its turn begins and ends. Both have further numbers for their
+        sides. Meshes have the place of the triangle among those with an area. All others have 0. A
+        miss has crt.NO_ENTITY for all three.
         """
         return _queries.hit_parts(self._handle, Batch(rays, RAY, "rays"))
 

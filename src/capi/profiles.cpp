@@ -52,3 +52,13 @@ crt_status crt_extrusion_create(const crt_profile* profile, const double from[3]
     *out = new crt_entity(crt::extruded(made, to_vec3(from, "from"), to_vec3(to, "to")));
   });
 }
+
+crt_status crt_revolution_create(const crt_profile* profile, const double from[3],
+                                 const double to[3], double angle, crt_entity** out) {
+  return guarded([&] {
+    require(profile, "profile");
+    require(out, "out");
+    const auto made = crt::make_profile(profile->contours);
+    *out = new crt_entity(crt::revolved(made, to_vec3(from, "from"), to_vec3(to, "to"), angle));
+  });
+}

@@ -82,6 +82,10 @@ inline std::optional<NoSize> give_size(Extrusion& extrusion) {
   return size_given(extrusion.to, "height");
 }
 
+inline std::optional<NoSize> give_size(Revolution& revolution) {
+  return size_given(revolution.angle, "angle");
+}
+
 inline std::optional<NoSize> give_size(Torus& torus) {
   const auto thickness = size_given(torus.thickness, "thickness");
   const auto radius = size_given(torus.radius, "radius");

@@ -178,7 +178,9 @@ void Session::make_primitive() {
         if (input_.below(2) != 0) crt_profile_move_to(profile, b[2], s);
         crt_profile_arc_to(profile, c[2], a[0], s);
         crt_profile_line_to(profile, b[1], r);
-        const crt_status status = crt_extrusion_create(profile, a.data(), c.data(), out);
+        const crt_status status =
+            input_.below(2) != 0 ? crt_extrusion_create(profile, a.data(), c.data(), out)
+                                 : crt_revolution_create(profile, a.data(), c.data(), b[0], out);
         crt_profile_release(profile);
         return status;
       }

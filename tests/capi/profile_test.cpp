@@ -48,6 +48,40 @@ TEST_CASE("a profile is drawn out along any axis, with x where angles about that
   CHECK(crossings(turned.get(), {-1, -0.5, 0}, {1, 0, 0}) == List{1, 3.5});
 }
 
+TEST_CASE("a profile is turned about any axis, from where angles about that begin") {
+  const ProfileHandle profile = new_profile();
+  CHECK(crt_profile_move_to(profile.get(), 1, 0) == CRT_OK);
+  CHECK(crt_profile_line_to(profile.get(), 2, 0) == CRT_OK);
+  CHECK(crt_profile_line_to(profile.get(), 2, 1) == CRT_OK);
+  CHECK(crt_profile_line_to(profile.get(), 1, 1) == CRT_OK);
+  using List = std::vector<double>;
+  const auto turned = [&](const Numbers& from, const Numbers& to, double angle) {
+    return made<EntityHandle>([&](crt_entity** out) {
+      return crt_revolution_create(profile.get(), from.data(), to.data(), angle, out);
+    });
+  };
+  const double quarter = std::acos(0.0);
+  const EntityHandle ring = turned({0, 3, 0}, {0, 8, 0}, 4 * quarter);
+  CHECK(crossings(ring.get(), {-3, 3.5, 0}, {1, 0, 0}) == List{1, 2, 4, 5});
+  CHECK(crossings(ring.get(), {1.5, 0, 0}, {0, 1, 0}) == List{3, 4});
+  const EntityHandle along_z = turned({0, 0, 3}, {0, 0, 1}, 4 * quarter);
+  CHECK(crossings(along_z.get(), {1.5, 0, 0}, {0, 0, 1}) == List{2, 3});
+  const EntityHandle part = turned({0, 3, 0}, {0, 8, 0}, quarter);
+  CHECK(crossings(part.get(), {-3, 3.5, 1.5}, {1, 0, 0}).size() == 2);
+  CHECK(crossings(part.get(), {-3, 3.5, 1.5}, {1, 0, 0}).front() == 3);
+  CHECK(crossings(part.get(), {-3, 3.5, -0.5}, {1, 0, 0}) == List{});
+  crt_entity* entity = nullptr;
+  const Numbers from = {0, 0, 0};
+  const Numbers to = {0, 1, 0};
+  CHECK(crt_revolution_create(profile.get(), from.data(), to.data(), 0, &entity) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("angle"));
+  CHECK(crt_profile_line_to(profile.get(), -1, 1) == CRT_OK);
+  CHECK(crt_revolution_create(profile.get(), from.data(), to.data(), 1, &entity) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("corner 4 of contour 0"));
+}
+
 TEST_CASE("entities keep a profile as it was when they were made") {
   const ProfileHandle profile = new_profile();
   CHECK(crt_profile_move_to(profile.get(), 1, 0) == CRT_OK);

@@ -28,6 +28,7 @@
 #include "geometry/meshes.hpp"
 #include "geometry/oracle.hpp"
 #include "geometry/profiles.hpp"
+#include "geometry/turned_profiles.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -57,6 +58,12 @@ void set_at_random(Extrusion& extrusion, std::size_t /*bytes*/, Random& random) 
       make_profile(random.one_in(2) ? whole_contours(random) : random_contours(random, 2));
   extrusion.from = random_field(random);
   extrusion.to = random_field(random);
+}
+
+void set_at_random(Revolution& revolution, std::size_t /*bytes*/, Random& random) {
+  revolution.profile =
+      random.one_in(2) ? whole_turned_profile(random) : random_turned_profile(random, 2);
+  revolution.angle = random_turn(random);
 }
 
 /// Returns a valid instance of the primitive that stands at this place in the list.

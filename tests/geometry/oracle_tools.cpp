@@ -125,6 +125,10 @@ Extrusion times(Extrusion s, double k) {
   s.to *= k;
   return s;
 }
+Revolution times(Revolution s, double k) {
+  s.profile = scaled_profile(*s.profile, k);
+  return s;
+}
 Triangle times(Triangle s, double k) {
   s.a *= k;
   s.b *= k;

@@ -41,12 +41,15 @@ TEST_CASE(
     "being a solid") {
   CHECK(argument(Mesh{}) == "triangles");
   CHECK(argument(Extrusion{}) == "profile");
+  CHECK(argument(Revolution{}) == "profile");
   Random random(1);
   const TriangleList list = ball_mesh(random, 1, 0);
   const Mesh mesh{.triangles = mesh_triangles(list.positions, list.triangles)};
   const Extrusion extrusion{.profile = profile_of({rectangle(0, 0, 1, 1)})};
-  const Primitive all[] = {Sphere{}, Box{},  Plane{},    HalfPlane{}, Cylinder{}, Cone{},
-                           Torus{},  Disc{}, Triangle{}, Capsule{},   mesh,       extrusion};
+  const Revolution revolution{.profile = extrusion.profile};
+  const Primitive all[] = {Sphere{}, Box{},     Plane{},   HalfPlane{}, Cylinder{},
+                           Cone{},   Torus{},   Disc{},    Triangle{},  Capsule{},
+                           mesh,     extrusion, revolution};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
@@ -109,6 +112,9 @@ TEST_CASE("every field of every primitive is checked") {
   CHECK(argument(Extrusion{.profile = square, .from = inf}) == "from");
   CHECK(argument(Extrusion{.profile = square, .to = 1e101}) == "to");
   CHECK(argument(Extrusion{.profile = square, .from = 1, .to = 1}) == "to");
+  CHECK(argument(Revolution{.profile = square, .angle = 0}) == "angle");
+  CHECK(argument(Revolution{.profile = square, .angle = 6.3}) == "angle");
+  CHECK(argument(Revolution{.profile = square, .angle = not_a_number}) == "angle");
   CHECK(argument(Torus{.center = bad}) == "center");
   CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
   CHECK(argument(Torus{.radius = 0}) == "radius");
@@ -122,6 +128,27 @@ TEST_CASE("every field of every primitive is checked") {
   CHECK(argument(Triangle{.a = {1, 1, 1}, .b = {2, 2, 2}, .c = {4, 4, 4}}) == "c");
   CHECK(argument(Triangle{.a = {0.1, 0.1, 0.1}, .b = {0.3, 0.3, 0.3}, .c = {0.7, 0.7, 0.7}}) ==
         "c");
+}
+
+TEST_CASE("profiles of revolutions are checked, and errors name the corner") {
+  const auto fault_of = [](const std::vector<Contour>& contours) {
+    return fault(Revolution{.profile = profile_of(contours)});
+  };
+  CHECK(fault_of({rectangle(0, 0, 1, 1), rectangle(2, 0, -1, 1)}) ==
+        "profile: profile: corner 1 of contour 1 must be at x >= 0, as x is the distance from the "
+        "axis (it is at x = -1)");
+  CHECK(fault_of({rectangle(1e-101, 0, 1, 1)}) ==
+        "profile: profile: corner 0 of contour 0 must be on the axis or at least 1e-100 from it "
+        "(it is at x = 1e-101)");
+  CHECK(fault_of({{{1, 0}, {2, 0}, {2, 1}, {1.5, 1e-101}}}) ==
+        "profile: profile: corner 0 of contour 0 must be as high as the corner before, or at least "
+        "1e-100 off");
+  CHECK(fault_of({{{0.5, 0}, {1, 0}, {1, 2}, {0.5, 2}, {0.5, 0, 1}}}) ==
+        "profile: profile: corner 0 of contour 0 must not be reached by an arc beyond the axis (it "
+        "goes to x = -0.5)");
+  CHECK(fault_of({circle(0.3, 0.1, 0.3)}) == "");
+  CHECK(fault_of({{{0, -1}, {0, 1, 1}}}) == "");
+  CHECK(fault_of({rectangle(0, 0, 1e100, 1e-100)}) == "");
 }
 
 TEST_CASE("values at the limits, slivers and spindles are accepted") {

@@ -86,3 +86,26 @@ TEST_CASE("a root is found by where it nearly is, if it is alone there") {
   CHECK(RealRoot::near(polynomial, 1.0, 0));
   CHECK_FALSE(RealRoot::near(polynomial, 2.0, 0));
 }
+
+TEST_CASE("a number is found between two roots, and a root is rounded to 100 bits") {
+  for (const int exponent : {-10, -100, -1000}) {
+    CAPTURE(exponent);
+    RealRoot a = last_root(square_less(2));
+    RealRoot b = last_root(square_less(Dyadic(2) + power_of_two(exponent)));
+    const Dyadic middle = RealRoot::between(a, b);
+    CHECK((square(middle) - Dyadic(2)).sign() > 0);
+    CHECK((square(middle) - Dyadic(2) - power_of_two(exponent)).sign() < 0);
+    CHECK((square(a.below()) - Dyadic(2)).sign() < 0);
+    CHECK((square(b.above()) - Dyadic(2) - power_of_two(exponent)).sign() > 0);
+  }
+  for (const double size : {0x1p-600, 1.0, 0x1p600}) {
+    CAPTURE(size);
+    const DoubleDouble root = last_root(square_less(Dyadic(2 * size) * Dyadic(size))).rounded();
+    const Dyadic rounded = Dyadic(root.hi) + Dyadic(root.lo);
+    const Dyadic off = square(rounded) - Dyadic(2 * size) * Dyadic(size);
+    CHECK((off + Dyadic(0x1p-99 * size) * Dyadic(size)).sign() > 0);
+    CHECK((off - Dyadic(0x1p-99 * size) * Dyadic(size)).sign() < 0);
+  }
+  CHECK(RealRoot::of_index(DyadicPolynomial({0, -3, 0, 1}), 1)->rounded().hi == 0);
+  CHECK(RealRoot::at(-5).rounded().hi == -5);
+}

@@ -120,15 +120,15 @@ struct Relative {
 };
 
 /// A primitive has at most so many equations.
-inline constexpr std::size_t most_equations = 6;
+inline constexpr std::size_t most_equations = 10;
 template <class Number>
 using Equations = Few<Polynomial<Number>, most_equations>;
 
 /// A cylinder has the equations of its side and of its caps.
 inline constexpr std::ptrdiff_t cylinder_equations = 3;
 
-// A solid is where all its polynomials are negative, except the torus, the capsule and the
-// extrusion.
+// A solid is where all its polynomials are negative, except the torus, the capsule, the extrusion
+// and the revolution.
 
 // A truncated cone about `axis` = to - from, A = axis . axis, k = radius2 - radius, w = p - from,
 // h = w . axis: F = |w x axis|^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
@@ -239,13 +239,40 @@ Equations<Number> equations(const Extrusion& extrusion, const ExactLine<Number>&
   return result;
 }
 
+// A point of a revolution is at (rho, y) of the profile. A side from (a, b) has it on the left if
+// dx (y - b) + dy a > dy rho. With u for the left side there are the equations u^2 - dy^2 rho^2 and
+// u of each side. Then come Q and S of the torus that the arc makes, and the planes of the ends.
+inline constexpr std::size_t equations_of_sides = 6;
+template <class Number>
+Equations<Number> equations(const Revolution& revolution, const ExactLine<Number>& line) {
+  const ArchedTriangle profile(*revolution.profile);
+  const NumberVec<Number> up = exactly<Number>(Vec3(0, 1, 0));
+  Equations<Number> result;
+  for (std::size_t side = 0; side < 3; ++side) {
+    const Vec3& from = profile.from(side);
+    const NumberVec<Number> along = exactly<Number>(profile.to(side)) - exactly<Number>(from);
+    const Relative relative(line, Vec3(0, from.y, 0));
+    const Polynomial<Number> u =
+        along[0] * relative.along(up) + Polynomial<Number>{along[1] * Number(from.x)};
+    result.push_back(square(u) - square(along[1]) * relative.squared_distance_from_axis(up));
+    result.push_back(u);
+  }
+  const Torus torus{
+      .center = {0, profile.center.y, 0}, .radius = profile.center.x, .thickness = profile.radius};
+  for (const Polynomial<Number>& equation : equations(torus, line)) result.push_back(equation);
+  for (const Vec3& normal : ends_of(revolution)) {
+    result.push_back(Relative(line, Vec3(0)).along(exactly<Number>(normal)));
+  }
+  return result;
+}
+
 template <class Number>
 Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>& line) {
   return std::visit([&](const auto& p) { return equations(p, line); }, primitive);
 }
 
-/// Says whether the profile of an extrusion is all around a point, by the signs of the equations of
-/// its sides and its disc. Where one is 0, that is both sides of it.
+/// Says whether an arched triangle is all around a point. Signs are 1 to the right of a side, and
+/// -1 in the disc. Where one is 0, that is both sides of it.
 inline bool is_around(bool segment_is_right, std::array<int, 4> signs) {
   for (std::size_t i = 0; i < signs.size(); ++i) {
     if (signs[i] != 0) continue;
@@ -257,6 +284,29 @@ inline bool is_around(bool segment_is_right, std::array<int, 4> signs) {
   const bool in_triangle = signs[0] == signs[1] && signs[1] == signs[2];
   const bool in_segment = signs[3] < 0 && (signs[2] > 0) == segment_is_right;
   return in_triangle != in_segment;
+}
+
+/// Says whether a point is inside a revolution, by the signs of its equations there.
+template <class Signs>
+bool is_inside_revolution(const Revolution& revolution, const Signs& signs) {
+  const ArchedTriangle profile(*revolution.profile);
+  std::array<int, 4> of_profile{};
+  for (std::size_t side = 0; side < 3; ++side) {
+    const double rise = profile.to(side).y - profile.from(side).y;
+    const int up = rise > 0 ? 1 : (rise < 0 ? -1 : 0);
+    const int u = signs[2 * side + 1];
+    const int left = up == 0 ? u : (u == up ? u * signs[2 * side] : -up);
+    of_profile[side] = -left;
+  }
+  const bool squares = signs[equations_of_sides] < 0;
+  const bool sum = signs[equations_of_sides + 1] < 0;
+  const bool in_disc = profile.center.x < 0 ? sum && !squares : sum || squares;
+  of_profile[3] = in_disc ? -1 : 1;
+  if (!is_around(profile.is_right, of_profile)) return false;
+  if (ends_of(revolution).empty()) return true;
+  const bool first = signs[equations_of_sides + 2] < 0;
+  const bool last = signs[equations_of_sides + 3] < 0;
+  return is_more_than_half(revolution) ? first || last : first && last;
 }
 
 /// Says whether a point is inside a solid, by the signs of its equations there.
@@ -274,6 +324,9 @@ bool is_inside(const Primitive& solid, const Signs& signs) {
     return signs[4] < 0 && signs[5] < 0 &&
            is_around(ArchedTriangle(*extrusion->profile).is_right,
                      {signs[0], signs[1], signs[2], signs[3]});
+  }
+  if (const auto* revolution = std::get_if<Revolution>(&solid)) {
+    return is_inside_revolution(*revolution, signs);
   }
   return std::all_of(signs.begin(), signs.end(), negative);
 }

@@ -91,6 +91,24 @@ double gradient(const Extrusion& extrusion, std::size_t which, const ExactLine<N
   return which == 3 ? 2 * profile.radius : 1;
 }
 
+template <class Number>
+double gradient(const Revolution& revolution, std::size_t which, const ExactLine<Number>& line,
+                const Number& x) {
+  const ArchedTriangle profile(*revolution.profile);
+  if (which >= equations_of_sides + 2) {
+    return glm::length(ends_of(revolution)[which - equations_of_sides - 2]);
+  }
+  const Vec3 p = rounded(line.from(Vec3(0)) + x * line.direction);
+  const double rho = std::hypot(p.x, p.z);
+  if (which >= equations_of_sides) {
+    if (which > equations_of_sides) return infinity;
+    return 8 * std::abs(profile.center.x) * profile.radius * rho;
+  }
+  if (which % 2 == 1) return infinity;
+  const Vec3 along = profile.to(which / 2) - profile.from(which / 2);
+  return 2 * std::abs(along.y) * rho * glm::length(along);
+}
+
 /// Returns where a line meets a surface's plane, relative to its position, times `w` (so that it is
 /// exact).
 template <class Number>

@@ -321,6 +321,11 @@ std::string description(const TestRay& ray) {
       const auto& [a, b, c] = profile.corners;
       return fmt::format("extrusion {} {} {} bulge {:a} from {:a} to {:a}", text(a), text(b),
                          text(c), p.profile->contours()[0][0].bulge, p.from, p.to);
+    } else if constexpr (std::is_same_v<P, Revolution>) {
+      const ArchedTriangle profile(*p.profile);
+      const auto& [a, b, c] = profile.corners;
+      return fmt::format("revolution {} {} {} bulge {:a} angle {:a}", text(a), text(b), text(c),
+                         p.profile->contours()[0][0].bulge, p.angle);
     } else if constexpr (std::is_same_v<P, Mesh>)
       return fmt::format("mesh of {} triangles", p.triangles->size());
     else

@@ -44,6 +44,8 @@ Primitive scaled(Primitive primitive, double factor) {
           p.profile = scaled_profile(*p.profile, factor);
           p.from *= factor;
           p.to *= factor;
+        } else if constexpr (std::is_same_v<P, Revolution>) {
+          p.profile = scaled_profile(*p.profile, factor);
         } else if constexpr (std::is_same_v<P, Mesh>) {
           p = scaled_mesh(p, factor);
         } else {

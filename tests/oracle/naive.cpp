@@ -251,6 +251,61 @@ bool meet(const Torus& torus, const Vec3& o, const Vec3& d, core::CrossingList& 
   return false;
 }
 
+/// Looks at what is between all places where the line meets a surface.
+bool meet(const Revolution& revolution, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const ArchedTriangle profile(*revolution.profile);
+  const std::vector<Vec3> normals = ends_of(revolution);
+  std::vector<double> places;
+  for (const Vec3& normal : normals) places.push_back(plane_t(normal, Vec3(0), o, d));
+  for (std::size_t side = 0; side < 3; ++side) {
+    const Vec3& from = profile.from(side);
+    const Vec3 along = profile.to(side) - from;
+    const double u = along.x * (o.y - from.y) + along.y * from.x;
+    const double rate = along.x * d.y;
+    const double squared = along.y * along.y;
+    const double a = squared * (d.x * d.x + d.z * d.z) - rate * rate;
+    const double b = squared * (o.x * d.x + o.z * d.z) - u * rate;
+    const double c = squared * (o.x * o.x + o.z * o.z) - u * u;
+    const double root = std::sqrt(b * b - a * c);
+    places.push_back((-b - root) / a);
+    places.push_back((-b + root) / a);
+  }
+  const double speed = glm::length(d);
+  const Vec3 v = d / speed;
+  const Vec3 f = o - Vec3(0, profile.center.y, 0);
+  const double ring = profile.center.x * profile.center.x;
+  const double fd = glm::dot(f, v);
+  const double k = glm::dot(f, f) + ring - profile.radius * profile.radius;
+  const auto all = quartic_roots(4 * fd, 4 * fd * fd + 2 * k - 4 * ring * (1 - v.y * v.y),
+                                 4 * fd * k - 8 * ring * (fd - f.y * v.y),
+                                 k * k - 4 * ring * (glm::dot(f, f) - f.y * f.y));
+  for (const Complex& root : all) places.push_back(root.real() / speed);
+  std::erase_if(places, [](double t) { return !std::isfinite(t); });
+  std::sort(places.begin(), places.end());
+  const auto is_inside = [&](double t) {
+    const Vec3 point = o + t * d;
+    const Vec3 p(std::hypot(point.x, point.z), point.y, 0);
+    std::array<bool, 3> right{};
+    for (std::size_t side = 0; side < 3; ++side) {
+      right[side] = glm::cross(profile.to(side) - profile.from(side), p - profile.from(side)).z < 0;
+    }
+    const bool in_disc = glm::length(p - profile.center) < profile.radius;
+    const bool in_triangle = right[0] == right[1] && right[1] == right[2];
+    if (in_triangle == (in_disc && right[2] == profile.is_right)) return false;
+    const auto is_behind = [&](const Vec3& normal) { return glm::dot(normal, point) < 0; };
+    return is_more_than_half(revolution)
+               ? normals.empty() || std::any_of(normals.begin(), normals.end(), is_behind)
+               : std::all_of(normals.begin(), normals.end(), is_behind);
+  };
+  bool inside = false;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool after = i + 1 < places.size() && is_inside((places[i] + places[i + 1]) / 2);
+    if (after != inside) out.push_back({.t = places[i], .entering = after});
+    inside = after;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool naive_crossings(const Primitive& primitive, const Vec3& origin, const Vec3& direction,

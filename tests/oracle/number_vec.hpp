@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <type_traits>
 #include <vector>
 
 #include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/profile/profile.hpp"
+#include "core/geometry/revolution/turned_walls.hpp"
 #include "crt/error.hpp"
 #include "crt/primitives.hpp"
 #include "oracle/interval.hpp"
@@ -122,8 +124,8 @@ inline std::shared_ptr<const Profile> arched_triangle(const std::array<Vec3, 3>&
   }
 }
 
-/// An ArchedTriangle is the profile of the extrusions of this oracle: a triangle, and the segment
-/// of a disc that is added to it or taken away.
+/// An ArchedTriangle is the profile of the extrusions and revolutions of this oracle: a triangle,
+/// and the segment of a disc that is added to it or taken away.
 struct ArchedTriangle {
   std::array<Vec3, 3> corners;
   Vec3 center;
@@ -151,6 +153,16 @@ inline double lower_end(const Extrusion& e) {
 }
 inline double upper_end(const Extrusion& e) {
   return std::max(e.from, e.to);
+}
+
+/// Returns the normals of the ends of a revolution, which point out of it. A whole turn has none.
+/// They are rounded, and so a part of the description, as the circle of an arc is.
+inline std::vector<Vec3> ends_of(const Revolution& r) {
+  const core::TurnedProfile turned(r);
+  return {turned.normals.begin(), turned.normals.begin() + turned.planes};
+}
+inline bool is_more_than_half(const Revolution& r) {
+  return r.angle > std::numbers::pi;
 }
 
 /// Holds for the primitives without an inside.

@@ -274,6 +274,17 @@ void make(Counted& random, const Vec3& at, double size, Extrusion& extrusion) {
 double height(Counted& random, const Extrusion& extrusion) {
   return extrusion.from + random.uniform(0, 1) * (extrusion.to - extrusion.from);
 }
+/// Returns a spot in the plane of a profile, on one of its three walls.
+Spot flat_spot(const ArchedTriangle& profile, std::size_t side, double share) {
+  const Vec3 up(0, 0, 1);
+  const Vec3 along = profile.to(side) - profile.from(side);
+  const Vec3 point = profile.from(side) + share * along;
+  if (side < 2) return {point, glm::normalize(glm::cross(along, up)), glm::normalize(along)};
+  Vec3 out = glm::normalize(point - profile.center);
+  const bool is_right = glm::dot(out, glm::cross(along, up)) > 0;
+  if (is_right != profile.is_right) out = -out;
+  return {profile.center + profile.radius * out, out, glm::cross(out, up)};
+}
 /// Returns a spot on one of the three walls, or on an end.
 Spot spot(Counted& random, const Extrusion& extrusion) {
   const ArchedTriangle profile(*extrusion.profile);
@@ -290,16 +301,12 @@ Spot spot(Counted& random, const Extrusion& extrusion) {
     return {lifted(point, random.integer(0, 1) == 0 ? extrusion.from : extrusion.to), up,
             glm::normalize(profile.corners[1] - profile.corners[0])};
   }
-  const Vec3 along = profile.to(side) - profile.from(side);
-  const Vec3 point = profile.from(side) + share * along;
+  const Spot on_side = flat_spot(profile, side, share);
   if (side < 2) {
-    return {lifted(point, height(random, extrusion)), glm::normalize(glm::cross(along, up)),
-            random.integer(0, 1) == 0 ? up : glm::normalize(along)};
+    return {lifted(on_side.point, height(random, extrusion)), on_side.normal,
+            random.integer(0, 1) == 0 ? up : on_side.parallel};
   }
-  Vec3 out = glm::normalize(point - profile.center);
-  const bool is_right = glm::dot(out, glm::cross(along, up)) > 0;
-  if (is_right != profile.is_right) out = -out;
-  return {lifted(profile.center + profile.radius * out, height(random, extrusion)), out, up};
+  return {lifted(on_side.point, height(random, extrusion)), on_side.normal, up};
 }
 /// Returns a point of an edge between two walls, or of one between a wall and an end.
 Vec3 edge(Counted& random, const Extrusion& extrusion) {
@@ -310,6 +317,57 @@ Vec3 edge(Counted& random, const Extrusion& extrusion) {
   point = spot(random, extrusion).point;
   point.z = random.integer(0, 1) == 0 ? extrusion.from : extrusion.to;
   return point;
+}
+
+void make(Counted& random, const Vec3& at, double size, Revolution& revolution) {
+  std::array<Vec3, 3> offsets{};
+  for (Vec3& offset : offsets) offset = size * random.in_cube();
+  // One corner in eight is on the axis.
+  const double ring = random.integer(0, 2) == 0 ? size * random.power_of_ten(0, 3) : size;
+  for (Vec3& offset : offsets) {
+    offset.x = random.integer(0, 7) == 0 ? 0 : ring + offset.x;
+  }
+  std::array<Vec3, 3> corners = offsets;
+  for (Vec3& corner : corners) corner.y += at.y;
+  const double bulge = random.sign() * random.uniform(0.3, 1.2);
+  revolution.profile = arched_triangle(corners, bulge);
+  if (revolution.profile == nullptr) revolution.profile = arched_triangle(offsets, bulge);
+  revolution.angle = random.integer(0, 1) == 0 ? 2 * std::numbers::pi : random.uniform(0.2, 6);
+}
+/// Turns a vector of the plane of the profile about the axis.
+Vec3 turned(const Vec3& v, double turn) {
+  return {v.x * std::sin(turn), v.y, v.x * std::cos(turn)};
+}
+/// Returns a spot on one of the three walls, or on an end.
+Spot spot(Counted& random, const Revolution& revolution) {
+  const ArchedTriangle profile(*revolution.profile);
+  const std::vector<Vec3> ends = ends_of(revolution);
+  const auto side = static_cast<std::size_t>(random.integer(0, ends.empty() ? 2 : 3));
+  const double share = random.uniform(0, 1);
+  if (side == 3) {
+    const Vec3 within = profile.corners[0] + share * (profile.corners[1] - profile.corners[0]);
+    const Vec3 point = within + random.uniform(0, 1) * (profile.corners[2] - within);
+    const bool is_first = random.integer(0, 1) == 0;
+    return {turned(point, is_first ? 0 : revolution.angle), ends[is_first ? 0 : 1],
+            random.integer(0, 1) == 0 ? Vec3(0, 1, 0)
+                                      : turned({1, 0, 0}, is_first ? 0 : revolution.angle)};
+  }
+  const Spot flat = flat_spot(profile, side, share);
+  const double turn = random.uniform(0, 1) * revolution.angle;
+  return {turned(flat.point, turn), turned(flat.normal, turn),
+          random.integer(0, 1) == 0 ? turned(flat.parallel, turn)
+                                    : Vec3(std::cos(turn), 0, -std::sin(turn))};
+}
+/// Returns a point of the circle of a corner, or of the edge of an end.
+Vec3 edge(Counted& random, const Revolution& revolution) {
+  const ArchedTriangle profile(*revolution.profile);
+  if (ends_of(revolution).empty() || random.integer(0, 1) == 0) {
+    const Vec3& corner = profile.corners[static_cast<std::size_t>(random.integer(0, 2))];
+    return turned(corner, random.uniform(0, 1) * revolution.angle);
+  }
+  const auto side = static_cast<std::size_t>(random.integer(0, 2));
+  const Vec3 point = flat_spot(profile, side, random.uniform(0, 1)).point;
+  return turned(point, random.integer(0, 1) == 0 ? 0 : revolution.angle);
 }
 
 }  // namespace

@@ -100,8 +100,8 @@ double outside(const Mesh& mesh, const IntervalVec& p) {
   return farthest;
 }
 
-double outside(const Extrusion& extrusion, const IntervalVec& p) {
-  const ArchedTriangle profile(*extrusion.profile);
+/// Returns how far a point of the plane of x and y is outside of an arched triangle.
+double outside(const ArchedTriangle& profile, const IntervalVec& p) {
   double right = infinity;
   double left = infinity;
   std::array<double, 3> sides{};
@@ -116,10 +116,23 @@ double outside(const Extrusion& extrusion, const IntervalVec& p) {
   from_center[2] = Interval(0.0);
   const double disc = (length(from_center) - Interval(profile.radius)).value();
   const double segment = std::max(disc, profile.is_right ? -sides[2] : sides[2]);
-  const double aside = std::max(std::min(triangle, segment), -std::max(triangle, segment));
+  return std::max(std::min(triangle, segment), -std::max(triangle, segment));
+}
+double outside(const Extrusion& extrusion, const IntervalVec& p) {
+  const double aside = outside(ArchedTriangle(*extrusion.profile), p);
   const double below = (Interval(lower_end(extrusion)) - p[2]).value();
   const double above = (p[2] - Interval(upper_end(extrusion))).value();
   return std::max({aside, below, above});
+}
+double outside(const Revolution& revolution, const IntervalVec& p) {
+  const Interval rho = sqrt(square(p[0]) + square(p[2]));
+  const double aside = outside(ArchedTriangle(*revolution.profile), {rho, p[1], Interval(0.0)});
+  const std::vector<Vec3> normals = ends_of(revolution);
+  if (normals.empty()) return aside;
+  const double first = dot(p, exactly<Interval>(normals[0])).value();
+  const double last = dot(p, exactly<Interval>(normals[1])).value();
+  return std::max(aside,
+                  is_more_than_half(revolution) ? std::min(first, last) : std::max(first, last));
 }
 
 Vec3 middle(const Vec3& a, const Vec3& b) {
@@ -170,6 +183,14 @@ Ball ball_of(const Extrusion& extrusion) {
   // The radius of an arc counts like that of a cylinder.
   return {middle(box.lower, box.upper),
           std::max(glm::length(box.upper - box.lower) / 2, extrusion.profile->arcs()[0].radius)};
+}
+Ball ball_of(const Revolution& revolution) {
+  const core::Bounds& box = revolution.profile->bounds();
+  const Profile::Arc& arc = revolution.profile->arcs()[0];
+  // The radii of a torus count, too, also where only a part of it is there.
+  return {{0, middle(box.lower, box.upper).y, 0},
+          std::max(std::hypot(box.upper.x, (box.upper.y - box.lower.y) / 2),
+                   std::abs(arc.center.x) + arc.radius)};
 }
 Ball ball_of(const Mesh& mesh) {
   const core::Bounds& box = mesh.triangles->bounds();

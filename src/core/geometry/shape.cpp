@@ -13,6 +13,7 @@
 #include "core/geometry/half_plane/half_plane.hpp"
 #include "core/geometry/mesh/mesh.hpp"
 #include "core/geometry/plane/plane.hpp"
+#include "core/geometry/revolution/revolution.hpp"
 #include "core/geometry/sphere/sphere.hpp"
 #include "core/geometry/torus/torus.hpp"
 #include "core/geometry/triangle/triangle.hpp"

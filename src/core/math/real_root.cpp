@@ -107,6 +107,27 @@ int RealRoot::order_of_fractions(const RealRoot& a, const RealRoot& b) {
   return sign * p.leading().sign() * q.leading().sign();
 }
 
+Dyadic RealRoot::between(RealRoot& a, RealRoot& b) {
+  while (compared(a.high_, b.low_) >= 0) {
+    const bool a_is_wider = compared(a.high_ - a.low_, b.high_ - b.low_) > 0;
+    (a_is_wider ? a : b).narrow();
+  }
+  constexpr double half = 0.5;
+  return Dyadic(half) * (a.high_ + b.low_);
+}
+
+DoubleDouble RealRoot::rounded() {
+  if (low_.sign() < 0 && high_.sign() > 0) cut_at(Dyadic(0));
+  constexpr double precision = 0x1p-108;
+  while (!is_point()) {
+    const Dyadic& smaller = high_.sign() > 0 ? low_ : high_;
+    const Dyadic size = smaller.sign() < 0 ? -smaller : smaller;
+    if (compared(high_ - low_, Dyadic(precision) * size) <= 0) break;
+    narrow();
+  }
+  return low_.rounded().unscaled();
+}
+
 int order(RealRoot& a, RealRoot& b) {
   if (a.polynomial_.degree() == 1 && b.polynomial_.degree() == 1)
     return RealRoot::order_of_fractions(a, b);

@@ -30,6 +30,14 @@ class RealRoot {
   /// comparing them again costs less.
   friend int order(RealRoot& a, RealRoot& b);
 
+  /// Returns a number between a and b, where a < b.
+  static Dyadic between(RealRoot& a, RealRoot& b);
+  /// Return some number below the root, and some number above it.
+  Dyadic below() const { return is_point() ? low_ - Dyadic(1) : low_; }
+  Dyadic above() const { return is_point() ? high_ + Dyadic(1) : high_; }
+  /// Returns the number to about 100 bits.
+  DoubleDouble rounded();
+
  private:
   RealRoot() = default;
   bool is_point() const { return sign_low_ == 0; }
@@ -49,5 +57,7 @@ class RealRoot {
   int sign_low_ = 0;  ///< the sign of the polynomial at low, or 0 if low and high are the root
   int bits_ = 1;      ///< the number of bits that the next step tries to gain
 };
+
+int order(RealRoot& a, RealRoot& b);
 
 }  // namespace crt::core

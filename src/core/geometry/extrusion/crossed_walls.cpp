@@ -5,9 +5,10 @@
 #include <memory_resource>
 #include <vector>
 
-#include "core/geometry/extrusion/agree_with_start.hpp"
 #include "core/geometry/open_nodes.hpp"
 #include "core/geometry/order_of_places.hpp"
+#include "core/geometry/profile/agree_with_start.hpp"
+#include "core/geometry/profile/errors_beside.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -53,9 +54,9 @@ class CrossedWalls {
   int order(const Crossing& a, const Crossing& b) const;
   using Walls = std::pmr::vector<CrossedWall>;
 
-  void bound_by(const Crossing& other, Crossing& crossing) const;
-  void bound_beside(Walls::const_iterator begin, Walls::const_iterator end,
-                    Crossing& crossing) const;
+  void bound_by(const Crossing& other, Crossing& crossing) const {
+    if (!starts_on(crossing.face)) core::bound_by(other, crossing);
+  }
   void append_parts();
   void append_part(const Crossing& enter, const Crossing& leave);
 
@@ -214,27 +215,6 @@ int CrossedWalls::order(const Crossing& a, const Crossing& b) const {
       [this](const Crossing& one, const Crossing& other) { return tier_.order(one, other); });
 }
 
-/// Corrects the error of a crossing so near to another one that this may be meant.
-void CrossedWalls::bound_by(const Crossing& other, Crossing& crossing) const {
-  const double gap = std::abs((other.t - crossing.t) + (other.t_low - crossing.t_low));
-  if (starts_on(crossing.face) || !(gap <= crossing.error + other.error)) return;
-  crossing.error = std::max(crossing.error, gap + other.error);
-}
-
-/// Corrects the error of a crossing by the walls that are crossed in its place, and by those before
-/// and after it.
-void CrossedWalls::bound_beside(Walls::const_iterator begin, Walls::const_iterator end,
-                                Crossing& crossing) const {
-  for (auto here = begin; here != end; ++here) bound_by(here->crossing, crossing);
-  const double farthest = crossing.error + largest_error_;
-  while (begin != walls_.begin() && crossing.t - (--begin)->crossing.t <= farthest) {
-    bound_by(begin->crossing, crossing);
-  }
-  for (; end != walls_.end() && end->crossing.t - crossing.t <= farthest; ++end) {
-    bound_by(end->crossing, crossing);
-  }
-}
-
 /// Follows the line from wall to wall. It is in the profile where both lines are, that next to its
 /// right and that next to its left. What they cross in one place changes it at once.
 void CrossedWalls::append_parts() {
@@ -252,7 +232,7 @@ void CrossedWalls::append_parts() {
     if (is_inside != was_inside) {
       Crossing crossing = chosen->crossing;
       crossing.entering = is_inside;
-      bound_beside(group, end, crossing);
+      if (!starts_on(crossing.face)) bound_beside(walls_, group, end, largest_error_, crossing);
       if (chosen->along_normal == is_inside) ++crossing.face;
       if (is_inside) {
         enter = crossing;
@@ -282,24 +262,17 @@ void CrossedWalls::append_part(const Crossing& enter, const Crossing& leave) {
 
 }  // namespace
 
-bool are_on_one_surface(const Profile& profile, std::uint32_t a, std::uint32_t b) {
-  if (a < end_count || b < end_count) return a == b;
-  const Profile::Wall first = profile.wall(wall_of_face(a));
-  const Profile::Wall second = profile.wall(wall_of_face(b));
-  if (first.arc == Profile::no_arc || second.arc == Profile::no_arc) {
-    return first.arc == second.arc &&
-           profile.pieces()[first.piece].first == profile.pieces()[second.piece].first;
-  }
-  return profile.arcs()[first.arc].first == profile.arcs()[second.arc].first;
-}
-
 void append_crossings(const Profile& profile, PlaneLine& line, const ExtrusionTier& tier,
                       double shortest, CrossingList& out) {
   const std::size_t begin = out.size();
   CrossedWalls(profile, line, tier, out).append();
   const RayStart& start = line.near().start;
   if (start.face != no_face && start.on_face) {
-    agree_with_start(profile, line.near(), shortest, begin, out);
+    const bool is_round =
+        start.face >= end_count && profile.wall(wall_of_face(start.face)).arc != Profile::no_arc;
+    const bool goes_into_circle = (start.side == Side::inside) != is_turned(start.face);
+    agree_with_start(line.near(), is_round && !goes_into_circle ? 1 : 0,
+                     profile.bounds().farthest(), shortest, begin, out);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/geometry/checks.hpp"
 #include "core/geometry/frustum/start.hpp"
+#include "core/geometry/profile/contour_share.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -156,15 +157,7 @@ void ExtrusionShape::write_flat_point(const Vec3Of<Real>& offset, std::uint32_t 
     plane.write_point(plane.onto_plane(offset), point);
   }
   if (!with_uv) return;
-  const Vec3 along = piece.to - piece.from;
-  const Vector from_corner = point.position - broadcast<Real>(piece.from);
-  const double longer = largest_component(along);
-  const Vector scaled = from_corner / broadcast<Real>(longer);
-  const Vec3 direction = along / longer;
-  const Real way = (scaled.x * direction.x + scaled.y * direction.y) /
-                   (direction.x * direction.x + direction.y * direction.y);
-  const Real share = clamp(way, Real{}, broadcast<Real>(1));
-  point.u = piece.share_from + (piece.share_to - piece.share_from) * share;
+  point.u = share_of_piece<Real>(piece, point.position);
   point.v = clamp((point.position.z - bounds_.lower.z) / height, Real{}, broadcast<Real>(1));
 }
 
@@ -173,25 +166,12 @@ void ExtrusionShape::write_round_point(const Vec3Of<Real>& offset, const Vec3Of<
                                        std::uint32_t number, bool with_uv,
                                        SurfacePointOf<Real>& point) const {
   const Profile::Arc& arc = profile_->arcs()[number];
-  const Profile::Piece& piece = profile_->pieces()[arc.piece];
   cylinder(arc.first).template write_point<Real>(offset, direction, FrustumShape::side_face, false,
                                                  point);
   if (!with_uv) return;
   const Real height = broadcast<Real>(bounds_.upper.z - bounds_.lower.z);
   point.v = clamp((point.position.z - bounds_.lower.z) / height, Real{}, broadcast<Real>(1));
-  // Angles are from the first corner, in the sense of the arc.
-  const double sense = arc.is_right ? 1 : -1;
-  const Vec3 zero = (piece.from - arc.center) / arc.radius;
-  const Vec3 end = (piece.to - arc.center) / arc.radius;
-  const auto turn_to = [&](const auto& x, const auto& y) {
-    return turn(zero.x * x + zero.y * y, sense * (zero.x * y - zero.y * x));
-  };
-  const double whole = turn_to(end.x, end.y);
-  const Real turned = turn_to(point.normal.x, point.normal.y);
-  // Rounding may have put a point before the first corner.
-  const Real share =
-      select(turned > 0.5 + 0.5 * whole, Real{}, min(turned / whole, broadcast<Real>(1)));
-  point.u = piece.share_from + (piece.share_to - piece.share_from) * share;
+  point.u = share_of_arc<Real>(*profile_, arc, point.normal.x, point.normal.y);
 }
 
 Surface ExtrusionShape::surface(std::uint32_t face) const {

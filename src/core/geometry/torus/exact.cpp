@@ -6,6 +6,7 @@
 // With q relative to the centre, A the axis of any length and S = |q|^2 + R^2 - r^2, a point is
 // inside if S < 2 R rho, that is, if
 //    S < 0  or  Q = |A|^2 S^2 - 4 R^2 (|q|^2 |A|^2 - (q . A)^2) < 0.
+// In the inner lemon, where R < 0 (torus.hpp), it is inside if S < 0 and Q > 0.
 // All crossings are roots of Q. Its other roots are where a spindle torus has its inner lemon, and
 // where the line only touches. There both sides are alike.
 #include <optional>
@@ -78,6 +79,7 @@ class ExactTorusLine {
 
  private:
   void expand(const Torus& torus, const ExactLine& line) {
+    is_lemon_ = torus.radius < 0;
     const Dyadic shift = Dyadic(shift_.hi) + Dyadic(shift_.lo);
     offset_ = shift * Dyadic(1 / scale_);
     DyadicPolynomial squared_length;
@@ -114,7 +116,9 @@ class ExactTorusLine {
   }
 
   bool is_inside(const Dyadic& x) const {
-    return sum_.value(x).sign() < 0 || quartic_.value(x).sign() < 0;
+    const int sum = sum_.value(x).sign();
+    const int product = quartic_.value(x).sign();
+    return is_lemon_ ? sum < 0 && product > 0 : sum < 0 || product < 0;
   }
 
   void refine(const Dyadic& low, const Dyadic& high, Crossing& crossing) const {
@@ -124,6 +128,7 @@ class ExactTorusLine {
     crossing = exact_crossing((Dyadic(scale_) * (x + offset_)).rounded().unscaled(), crossing);
   }
 
+  bool is_lemon_ = false;     ///< R < 0
   DyadicPolynomial sum_;      ///< S
   DyadicPolynomial quartic_;  ///< Q
   DoubleDouble shift_;        ///< 0, or as above
@@ -138,7 +143,7 @@ class ExactTorusShape final : public ExactShape {
         frame_(frame_about(torus.axis)),
         axis_(scaled_to_one(torus.axis)),
         squared_axis_(accurate_dot(axis_, axis_)),
-        unit_(power_of_two_below(torus.radius + torus.thickness)),
+        unit_(power_of_two_below(std::abs(torus.radius) + torus.thickness)),
         ring_(torus.radius / unit_),
         tube_(torus.thickness / unit_) {}
 
@@ -147,7 +152,7 @@ class ExactTorusShape final : public ExactShape {
     const NearLine line = on_surface ? NearLine::at_origin(ray.near, torus_.center, unit_)
                                      : NearLine::at_closest(ray.near, torus_.center, unit_);
     TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
-    const double size = ring_ + tube_;
+    const double size = std::abs(ring_) + tube_;
     // These are the roundings of the frame, of turning into it, and of what is added up from there.
     constexpr double roundings = 64;
     const double ray_error = ray.point_error(torus_.center, line.to_t(line.closest())) / unit_;
@@ -265,7 +270,7 @@ class ExactTorusShape final : public ExactShape {
     // Each length is off by some roundings. G is off by twice the distance from the ring times
     // that, and by some roundings of its squares.
     const double size = std::abs(outward.hi) + level.height + tube_;
-    level.error = precise_roundoff * size * (8 * (ring_ + rho.hi + level.height) + size);
+    level.error = precise_roundoff * size * (8 * (std::abs(ring_) + rho.hi + level.height) + size);
     return level;
   }
 
@@ -282,11 +287,12 @@ class ExactTorusShape final : public ExactShape {
       const double change = (level.value - goal).value() / rate;
       // No second derivative of G between here and the root, and as far beyond, is larger.
       const double distance_moved = std::abs(change) * speed;
-      const double curvature = 2 * speed * speed * (1 + ring_ / (level.rho - 2 * distance_moved));
+      const double curvature =
+          2 * speed * speed * (1 + std::abs(ring_) / (level.rho - 2 * distance_moved));
       const double distance = std::abs(level.outward) + level.height;
       constexpr double rate_rounding = 0x1p-46;
       // Next to the axis cancellation leaves few digits of the direction away from it.
-      const double size = ring_ + level.rho + level.height;
+      const double size = std::abs(ring_) + level.rho + level.height;
       const double rate_error =
           rate_rounding * speed * (distance + std::abs(level.outward) * (size / level.rho));
       if (!(level.rho > 4 * distance_moved) || (rate < 0) != crossing.entering) return false;
@@ -308,7 +314,7 @@ class ExactTorusShape final : public ExactShape {
   AxisFrame frame_;
   Vec3 axis_;  ///< with a largest component of about 1
   DoubleDouble squared_axis_;
-  double unit_;  ///< a power of two near radius + thickness
+  double unit_;  ///< a power of two near |radius| + thickness
   double ring_;  ///< R in units
   double tube_;  ///< r in units
 };

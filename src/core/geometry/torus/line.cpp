@@ -41,7 +41,7 @@ Real TorusLineOf<Real>::half_curvature(const Level& here) const {
 template <class Real>
 auto TorusLineOf<Real>::range(const Mask& wanted, Range& result) const -> Mask {
   constexpr double margin = 1 + 0x1p-40;
-  const double sphere = (ring_ + tube_) * margin + off_;
+  const double sphere = reach_ * margin + off_;
   const Real closest = -dot(point_, direction_) / squared_length_;
   const Vec3Of<Real> nearest = point_ + closest * direction_;
   const Real distance = sqrt(dot(nearest, nearest));
@@ -50,7 +50,7 @@ auto TorusLineOf<Real>::range(const Mask& wanted, Range& result) const -> Mask {
   const Real half = sqrt((sphere - distance) * (sphere + distance) / squared_length_);
   result = {closest - half, closest + half};
 
-  const double slab = tube_ * margin + off_;
+  const double slab = std::min(tube_, reach_) * margin + off_;
   const Mask is_flat = direction_.z == 0.0;
   const Real a = (-slab - point_.z) / direction_.z;
   const Real b = (slab - point_.z) / direction_.z;
@@ -215,9 +215,9 @@ Real TorusLineOf<Real>::first_guess(const Bracket& bracket) const {
 template <class Real>
 auto TorusLineOf<Real>::is_last_step(const Real& x, const Level& from, const Real& step) const
     -> Mask {
-  const double rounding = unit_roundoff * tube_ * (ring_ + tube_);
+  const double rounding = unit_roundoff * tube_ * (std::abs(ring_) + tube_);
   const Real cube = from.rho * from.rho * from.rho;
-  const Real bend = squared_length_ + turning_ / cube +
+  const Real bend = squared_length_ + abs(turning_) / cube +
                     (on_surface_ ? Real(abs(2.0 * from.half_slope / x)) : Real{});
   // The step is so short that the distance from the axis shrinks by no more than a fourth, and its
   // cube to no less than a third.

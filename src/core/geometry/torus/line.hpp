@@ -1,6 +1,8 @@
 // A torus sees a line as G along it, and as the intervals where G < 0. torus.hpp says what G is.
 #pragma once
 
+#include <cmath>
+
 #include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
@@ -13,13 +15,15 @@ class TorusLineOf {
   using Mask = decltype(Real{} < Real{});
 
   /// Takes `point` and `direction` in the torus's frame: z is along its axis, and the center is 0.
-  /// With `on_surface` the point is on the torus by definition, and x = 0 is a root.
+  /// With `on_surface` the point is on the torus by definition, and x = 0 is a root. A negative
+  /// ring makes the inner lemon of the torus (torus.hpp).
   TorusLineOf(const Vec3Of<Real>& point, const Vec3Of<Real>& direction, double ring, double tube,
               bool on_surface)
       : point_(point),
         direction_(direction),
         ring_(ring),
         tube_(tube),
+        reach_(ring < 0 ? std::sqrt((tube - ring) * (tube + ring)) : ring + tube),
         squared_length_(dot(direction, direction)),
         passing_(without_what_vanishes(
             abs(difference_of_products(point.x, direction.y, point.y, direction.x)))),
@@ -88,6 +92,7 @@ class TorusLineOf {
   Vec3Of<Real> direction_;
   double ring_;
   double tube_;
+  double reach_;  ///< no point inside is farther from the center
   Real squared_length_;
   Real passing_;  ///< sqrt(D): the line's angular momentum about the axis
   Real turning_;  ///< R D

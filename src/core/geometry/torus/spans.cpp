@@ -18,7 +18,7 @@ double TorusLine::level_at_start() const {
 /// inflection it changes by its third derivative times the step squared.
 double TorusLine::inflection_error(const Range& concave) const {
   const double lateral_speed = direction_.x * direction_.x + direction_.y * direction_.y;
-  if (off_ == 0 || !(lateral_speed > 0)) return 0;
+  if (off_ == 0 || ring_ < 0 || !(lateral_speed > 0)) return 0;
   const double speed = std::sqrt(lateral_speed);
   const double size = ring_ + tube_;
   const double passing_error = off_ * (speed + size * std::sqrt(squared_length_));

@@ -13,7 +13,7 @@ TorusShape::TorusShape(const Torus& torus)
       frame_(frame_about(torus.axis)),
       radius_(torus.radius),
       thickness_(torus.thickness),
-      unit_(power_of_two_below(torus.radius + torus.thickness)),
+      unit_(power_of_two_below(std::abs(torus.radius) + torus.thickness)),
       ring_(torus.radius / unit_),
       tube_(torus.thickness / unit_) {}
 
@@ -39,7 +39,7 @@ template <class Real>
 [[gnu::always_inline]] inline TorusShape::Meeting<Real> TorusShape::meeting(
     const NearLineOf<Real>& line, const TorusLineOf<Real>& torus, const Real& x,
     const Real& length) const {
-  const double size = ring_ + tube_;
+  const double size = std::abs(ring_) + tube_;
   const Vec3Of<Real> place = line.at(x);
   const Real reach = size + sqrt(dot(place, place));
   // |n . d| is |G'| / 2r. No root moves by more than the lengths of the span and of the grazing
@@ -108,7 +108,7 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     end.t = line.to_t(x);
     // The direction's length is at least 1, and no span is longer than the torus is wide.
     if (end.t < ray.begin) {
-      end.error = line.to_t_length(2 * (ring_ + tube_));
+      end.error = line.to_t_length(2 * (std::abs(ring_) + tube_));
       return end;
     }
     const auto& [reach, approach, longest] = meeting<double>(line, torus, x, length);

@@ -14,6 +14,9 @@
 // begins where the parabola is 0 that osculates G at the interval's inner point. It ends when a
 // step leaves less of G than its rounding.
 //
+// The inner lemon itself has the same G with R < 0: it is what a part of a circle makes whose
+// center is beyond the axis, as it turns (revolution/). Such a G is convex along every line.
+//
 // A ray that starts on the surface has G(x) = (x - x0) H(x), with H in closed form (a difference of
 // squares and of distances). So its own root is removed by algebra.
 //
@@ -104,7 +107,7 @@ class TorusShape final : public ShapeOfPoints<TorusShape> {
   AxisFrame frame_;
   double radius_;
   double thickness_;
-  double unit_;  ///< a power of two near radius + thickness
+  double unit_;  ///< a power of two near |radius| + thickness
   double ring_;  ///< R in units
   double tube_;  ///< r in units
 };

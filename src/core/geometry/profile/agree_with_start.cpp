@@ -1,8 +1,7 @@
-#include "core/geometry/extrusion/agree_with_start.hpp"
+#include "core/geometry/profile/agree_with_start.hpp"
 
 #include <algorithm>
 
-#include "core/geometry/extrusion/crossed_walls.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -12,18 +11,14 @@ namespace {
 /// A StartParts has the parts of the line in the solid: pairs of crossings.
 class StartParts {
  public:
-  StartParts(const Profile& profile, const ObjectRay& ray, double shortest, std::size_t begin,
-             CrossingList& list)
+  StartParts(const ObjectRay& ray, std::uint8_t root, double farthest, double shortest,
+             std::size_t begin, CrossingList& list)
       : shortest_(shortest), begin_(begin), list_(list) {
     here_.face = ray.start.face;
     here_.entering = ray.start.side == Side::inside;
-    if (here_.face >= end_count && profile.wall(wall_of_face(here_.face)).arc != Profile::no_arc) {
-      const bool goes_into_circle = here_.entering != is_turned(here_.face);
-      here_.root = goes_into_circle ? 0 : 1;
-    }
+    here_.root = root;
     constexpr double share = 0x1p-30;
-    slack_ = share * (largest_component(ray.origin) + profile.bounds().farthest()) /
-             largest_component(ray.direction);
+    slack_ = share * (largest_component(ray.origin) + farthest) / largest_component(ray.direction);
   }
 
   void agree() {
@@ -92,9 +87,9 @@ class StartParts {
 
 }  // namespace
 
-void agree_with_start(const Profile& profile, const ObjectRay& ray, double shortest,
+void agree_with_start(const ObjectRay& ray, std::uint8_t root, double farthest, double shortest,
                       std::size_t begin, CrossingList& list) {
-  StartParts(profile, ray, shortest, begin, list).agree();
+  StartParts(ray, root, farthest, shortest, begin, list).agree();
 }
 
 }  // namespace crt::core

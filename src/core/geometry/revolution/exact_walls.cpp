@@ -1,0 +1,234 @@
+#include "core/geometry/revolution/exact_walls.hpp"
+
+#include <algorithm>
+
+#include "core/geometry/revolution/turned_walls.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// This is what holds of one line only: of that which is farther from the axis, or higher.
+constexpr ShiftMask moved_up = 1;
+
+DyadicPolynomial linear(const std::array<Dyadic, 2>& coefficients) {
+  return DyadicPolynomial({coefficients[0], coefficients[1]});
+}
+
+/// Appends all roots of a polynomial. That of 0 has none.
+void append_roots(const DyadicPolynomial& polynomial, std::vector<RealRoot>& roots) {
+  if (polynomial.degree() < 1) return;
+  const std::vector<Dyadic> separators = root_separators(polynomial);
+  for (std::size_t i = 1; i < separators.size(); ++i) {
+    roots.emplace_back(polynomial, separators[i - 1], separators[i]);
+  }
+}
+
+}  // namespace
+
+ExactWalls::ExactWalls(const Profile& profile, const ExactLine& line)
+    : profile_(profile),
+      weight_(line.weight),
+      height_(line.origin[1]),
+      climb_(line.direction[1]),
+      origin_(line.origin),
+      direction_(line.direction) {
+  const auto product = [](const DyadicVector& a, const DyadicVector& b) {
+    return a[0] * b[0] + a[2] * b[2];
+  };
+  q_ = {product(direction_, direction_), product(direction_, origin_), product(origin_, origin_)};
+}
+
+ShiftMask ExactWalls::beyond(const Vec3& corner) const {
+  const Dyadic above = weight_ * Dyadic(corner.y) - height_;
+  if (climb_.sign() == 0) return mask_of_sign(above.sign(), complement(moved_up));
+  if (corner.x == 0) return both_shifts;
+  const Dyadic x = origin_[0] * climb_ + above * direction_[0];
+  const Dyadic z = origin_[2] * climb_ + above * direction_[2];
+  return mask_of_sign((square(x) + square(z) - square(weight_ * Dyadic(corner.x) * climb_)).sign(),
+                      moved_up);
+}
+
+std::array<Dyadic, 2> ExactWalls::radius_times_height(const Profile::Piece& piece) const {
+  const Dyadic x = Dyadic(piece.to.x) - Dyadic(piece.from.x);
+  const Dyadic y = Dyadic(piece.to.y) - Dyadic(piece.from.y);
+  return {x * (height_ - weight_ * Dyadic(piece.from.y)) + weight_ * Dyadic(piece.from.x) * y,
+          x * climb_};
+}
+
+int ExactWalls::slope_at(const ExactQuadratic& g, const Vec3& corner) const {
+  const Dyadic above = weight_ * Dyadic(corner.y) - height_;
+  return (g.a * above + g.b * climb_).sign() * climb_.sign();
+}
+
+ExactWalls::PieceCut ExactWalls::level_cut(const Profile::Piece& piece) const {
+  PieceCut cut;
+  if (climb_.sign() == 0) return cut;
+  cut.polynomial = linear({height_ - weight_ * Dyadic(piece.from.y), climb_});
+  cut.shifts[0] = beyond(piece.from) ^ beyond(piece.to);
+  cut.along_normal[0] = climb_.sign() > 0;
+  return cut;
+}
+
+ExactWalls::PieceCut ExactWalls::cut(const Profile::Piece& piece) const {
+  if (piece.from.y == piece.to.y) return level_cut(piece);
+  const Dyadic height = Dyadic(piece.to.y) - Dyadic(piece.from.y);
+  const auto radius = radius_times_height(piece);
+  const Dyadic squared = square(height);
+  const ExactQuadratic g{squared * q_.a - square(radius[1]), squared * q_.b - radius[1] * radius[0],
+                         squared * q_.c - square(radius[0])};
+  PieceCut cut{.polynomial = g.polynomial(), .along_normal = {false, true}};
+  const int bend = g.a.sign();
+  const int discriminant = g.discriminant().sign();
+  const bool climbs = (piece.to.y > piece.from.y) == (climb_.sign() >= 0);
+  const Vec3& first = climbs ? piece.from : piece.to;
+  const Vec3& last = climbs ? piece.to : piece.from;
+  const ShiftMask before = beyond(first);
+  const ShiftMask after = beyond(last);
+  if (climb_.sign() == 0) {
+    if (discriminant > 0) cut.shifts = {before ^ after, before ^ after};
+    return cut;
+  }
+  // Where g falls and rises is at the first root and at the last, if it is bent upwards.
+  const ShiftMask falls = before & complement(after);
+  const ShiftMask rises = after & complement(before);
+  if (bend == 0 || discriminant == 0) {
+    // A line along the side of a cone comes in and goes out through the apex.
+    const Vec3& apex = piece.from.x == 0 ? piece.from : piece.to;
+    if (cut.polynomial.degree() < 0) {
+      cut.polynomial = linear({height_ - weight_ * Dyadic(apex.y), climb_});
+    }
+    cut.shifts[0] = falls | rises;
+    cut.along_normal[0] = falls == 0;
+    return cut;
+  }
+  cut.shifts = {bend > 0 ? falls : rises, bend > 0 ? rises : falls};
+  if (bend < 0) cut.along_normal = {true, false};
+  if (discriminant > 0 && slope_at(g, first) == -bend && slope_at(g, last) == bend) {
+    const ShiftMask twice = bend > 0 ? before & after : complement(before | after);
+    for (ShiftMask& shifts : cut.shifts) shifts |= twice;
+  }
+  return cut;
+}
+
+struct ExactWalls::Segment {
+  bool is_sphere;
+  bool is_lemon;
+  bool is_right;
+  DyadicPolynomial sum;      ///< q + (y - b)^2 + a^2 - r^2, for the center (a, b) and the radius r
+  DyadicPolynomial quartic;  ///< its square, less 4 a^2 q
+  DyadicPolynomial q;
+  DyadicPolynomial radius;  ///< of the chord's line, times `height`
+  Dyadic height;
+  ShiftMask left_if_along;  ///< the lines that are left of the chord's line if they are on it
+
+  const DyadicPolynomial& boundary() const { return is_sphere ? sum : quartic; }
+
+  bool is_in_disc(const Dyadic& t) const {
+    const int sign = sum.value(t).sign();
+    if (is_sphere) return sign < 0;
+    const int product = quartic.value(t).sign();
+    return is_lemon ? sign < 0 && product > 0 : sign < 0 || product < 0;
+  }
+
+  ShiftMask beyond_chord(const Dyadic& t) const {
+    const Dyadic radius_here = radius.value(t);
+    const int side = radius_here.sign();
+    int left = side;
+    if (height.sign() != 0) {
+      const int aside = height.sign();
+      const int nearer = (square(radius_here) - square(height) * q.value(t)).sign();
+      left = side != aside ? -aside : side * nearer;
+    }
+    const ShiftMask on_left = mask_of_sign(left, left_if_along);
+    return is_right ? complement(on_left) : on_left;
+  }
+};
+
+void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls) const {
+  const Profile::Piece& chord = profile_.pieces()[arc.piece];
+  const PieceCut piece_cut = cut(chord);
+  const Dyadic height = Dyadic(chord.to.y) - Dyadic(chord.from.y);
+  const Dyadic width = Dyadic(chord.to.x) - Dyadic(chord.from.x);
+  const Dyadic ring(ring_of(arc));
+  const DyadicPolynomial above = linear({height_ - weight_ * Dyadic(arc.center.y), climb_});
+  const DyadicPolynomial q = q_.polynomial();
+  const DyadicPolynomial sum =
+      q + above * above +
+      DyadicPolynomial({square(weight_) * (square(ring) - square(Dyadic(arc.radius)))});
+  Segment segment{.is_sphere = ring.sign() == 0,
+                  .is_lemon = ring.sign() < 0,
+                  .is_right = arc.is_right,
+                  .sum = sum,
+                  .quartic = sum * sum - Dyadic(4) * square(weight_ * ring) * q,
+                  .q = q,
+                  .radius = linear(radius_times_height(chord)),
+                  .height = height,
+                  .left_if_along = 0};
+  // A line that is farther from the axis is to the right of a piece that goes up, and one that is
+  // higher to the left of a piece that goes away from the axis.
+  const int up_is_left = climb_.sign() != 0 ? -height.sign() : width.sign();
+  segment.left_if_along = up_is_left > 0 ? moved_up : complement(moved_up);
+
+  struct Place {
+    RealRoot root;
+    std::size_t of_chord;  ///< the number of the chord's root, or none
+  };
+  constexpr std::size_t none = 2;
+  std::vector<Place> places;
+  std::vector<RealRoot> roots;
+  append_roots(segment.boundary(), roots);
+  for (RealRoot& root : roots) places.push_back({std::move(root), none});
+  roots.clear();
+  append_roots(piece_cut.polynomial, roots);
+  for (std::size_t i = 0; i < roots.size(); ++i) places.push_back({std::move(roots[i]), i});
+  std::sort(places.begin(), places.end(),
+            [](Place& a, Place& b) { return order(a.root, b.root) < 0; });
+
+  bool was_in_disc = false;
+  ShiftMask was_inside = 0;
+  std::uint8_t disc_roots = 0;
+  for (auto here = places.begin(); here != places.end();) {
+    auto end = here + 1;
+    while (end != places.end() && order(here->root, end->root) == 0) ++end;
+    const Dyadic next = end != places.end() ? RealRoot::between((end - 1)->root, end->root)
+                                            : (end - 1)->root.above();
+    const bool in_disc = segment.is_in_disc(next);
+    const ShiftMask inside = in_disc ? segment.beyond_chord(next) : 0U;
+    ShiftMask shifts = was_inside ^ inside;
+    std::size_t of_chord = none;
+    for (auto place = here; place != end; ++place) {
+      if (place->of_chord == none) continue;
+      of_chord = place->of_chord;
+      shifts ^= piece_cut.shifts[of_chord];
+    }
+    const bool crosses_disc = in_disc != was_in_disc;
+    if (shifts != 0 && crosses_disc) {
+      walls.push_back({here->root, arc.piece, disc_roots, shifts, !in_disc});
+    } else if (shifts != 0 && of_chord != none) {
+      walls.push_back({here->root, profile_.chord_of(chord.arc),
+                       static_cast<std::uint8_t>(of_chord), shifts,
+                       piece_cut.along_normal[of_chord]});
+    }
+    if (crosses_disc) ++disc_roots;
+    was_in_disc = in_disc;
+    was_inside = inside;
+    here = end;
+  }
+}
+
+void ExactWalls::meet(std::uint32_t number, std::vector<ExactWall>& walls) const {
+  const Profile::Piece& piece = profile_.pieces()[number];
+  if (piece.arc != Profile::no_arc) return meet_arc(profile_.arcs()[piece.arc], walls);
+  const PieceCut piece_cut = cut(piece);
+  if ((piece_cut.shifts[0] | piece_cut.shifts[1]) == 0) return;
+  std::vector<RealRoot> roots;
+  append_roots(piece_cut.polynomial, roots);
+  for (std::size_t i = 0; i < std::min<std::size_t>(roots.size(), 2); ++i) {
+    if (piece_cut.shifts[i] == 0) continue;
+    walls.push_back({std::move(roots[i]), number, static_cast<std::uint8_t>(i), piece_cut.shifts[i],
+                     piece_cut.along_normal[i]});
+  }
+}
+
+}  // namespace crt::core
