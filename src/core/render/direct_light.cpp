@@ -34,6 +34,19 @@ void start_at(const Surfaces& surfaces, RayBatch& batch) {
   });
 }
 
+/// Lets the light on smooth surfaces fade to nothing where facets turn away from it. Otherwise
+/// those beyond would be black beside bright ones.
+///
+/// Source: Chiang, Li, Burley, Taming the shadow terminator, SIGGRAPH 2019 talks.
+void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, VectorLanes& light) {
+  const VectorLanes& normal = group.phong.normal;
+  const Lanes by_normals = dot(normal, to_light) * dot(normal, group.face_normal);
+  const Lanes ratio = dot(group.face_normal, to_light) / by_normals;
+  const Lanes g = min(ratio, lanes_of(1));
+  const LaneMask fades = lanes_with(group.smooth) & (by_normals > 0.0);
+  light = select(fades, (g * (1.0 + g * (1.0 - g))) * light, light);
+}
+
 /// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
 RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
                ShadowRays& rays) {
@@ -45,6 +58,7 @@ RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask so
     lit &= source.sample(group.position, group.path_length, samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
     direct_light(group.phong, samples, source.color(), lit, rays.light[i]);
+    if (group.smooth != 0) soften_terminator(group, samples.directions, rays.light[i]);
     lit &= !is_black(rays.light[i]);
     aimed |= mask_of(lit) << (i * lane_count);
     rays.batch.lines[i] = {group.position, samples.directions};
