@@ -25,7 +25,7 @@ TEST_CASE("corners have texture coordinates and normals, and count from either e
   CHECK(faces("vn 0 0 1\nf 1//1 2//1 3//1\n") == one);
   CHECK(faces("vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n") == one);
   CHECK(faces("f -4 -3 -2\n") == one);
-  CHECK(faces("f -4/-1/-1 -3/-1/-1 -2/-1/-1\n") == one);
+  CHECK(faces("vt 0 0\nvn 0 0 1\nf -4/-1/-1 -3/-1/-1 -2/-1/-1\n") == one);
   CHECK(decode("v 9 9 9\n" + four + "f -4 -3 -2\nv 8 8 8\nf -5 -4 -3\n").triangles ==
         Triangles{{1, 2, 3}, {1, 2, 3}});
 }

@@ -18,6 +18,7 @@ struct SurfaceGroup {
   VectorLanes face_normal;  ///< of the geometry, turned to the viewer
   PhongSurfaces phong;      ///< its normal is that of shading, also tilted by bumps
   RayMask smooth = 0;       ///< those whose facets have normals for shading
+  Lanes horizons{};         ///< ShadingNormal::horizon of these
   Lanes reflectivity{};     ///< of the materials
   Lanes transparency{};
   RayMask sending_on = 0;  ///< those whose materials do not end paths

@@ -22,8 +22,8 @@ ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointL
 }
 
 /// Returns the outward normal for shading of a point, both in object space.
-Vec3 shading_normal(const Leaf& leaf, std::uint32_t face, const SurfacePoint& point) {
-  if (!leaf.has_normals) return point.normal;
+ShadingNormal shading_normal(const Leaf& leaf, std::uint32_t face, const SurfacePoint& point) {
+  if (!leaf.has_normals) return {point.normal};
   const MeshShape& mesh = static_cast<const MeshShape&>(*leaf.shape);
   return mesh.shading_normal(face, point.position, point.normal);
 }
@@ -75,7 +75,8 @@ void set_shading_normals(const PreparedData& data, const AlikeHits& alike,
     const RayHit& hit = alike.hits[lane];
     const Leaf& leaf = data.leaf(hit);
     const SurfacePoint point = lane_of(points, lane);
-    const Vec3 plain = shading_normal(leaf, hit.face, point);
+    const auto [plain, horizon] = shading_normal(leaf, hit.face, point);
+    group.horizons[lane] = horizon;
     const Vec3 normal = alike.material.bump
                             ? bumped_normal(leaf, hit.face, alike.material, point, plain, work)
                             : leaf.placement->normal_to_world(plain);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -16,7 +17,8 @@ namespace crt::core {
 namespace {
 
 [[noreturn]] void reject_attribute(const char* field, const std::string& rule) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("{} {}", field, rule), field);
+  const bool is_of_item = rule.starts_with('[');
+  throw Error(ErrorCode::invalid_argument, field + (is_of_item ? rule : ' ' + rule), field);
 }
 
 /// Checks indices that name one of `count` values for each corner of each triangle.
@@ -72,14 +74,14 @@ std::vector<TriangleIndices> indices_of_facets(std::span<const TriangleIndices> 
   return result;
 }
 
-CornerValues<3> given_normals(const MeshAttributes& attributes, const GivenFacets& given) {
-  CornerValues<3> result;
+CornerNormals given_normals(const MeshAttributes& attributes, const GivenFacets& given) {
+  CornerNormals result;
   if (attributes.normals.empty()) return result;
   result.values.reserve(attributes.normals.size());
   for (const Vec3& normal : attributes.normals) {
     const Vec3 unit = direction_and_length(normal).direction;
     result.values.push_back(
-        {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)});
+        {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z), 0});
   }
   result.of_facets = indices_of_facets(attributes.normal_indices, given);
   return result;
@@ -127,6 +129,7 @@ FacetAttributes::FacetAttributes(const MeshAttributes& attributes, const GivenFa
   } else if (*attributes.smooth > 0) {
     normals_ = smooth_normals(mesh, pairs, *attributes.smooth);
   }
+  find_largest_angles(mesh, normals_);
   if (materials_.empty() || attributes.material_of_triangle.empty()) return;
   materials_of_.reserve(given.numbers.size());
   for (const std::uint32_t number : given.numbers) {
@@ -135,21 +138,24 @@ FacetAttributes::FacetAttributes(const MeshAttributes& attributes, const GivenFa
   }
 }
 
-Vec3 FacetAttributes::normal(std::uint32_t facet, double u, double v,
-                             const Vec3& facet_normal) const {
-  const auto at = [&](std::size_t corner) {
-    const auto* const value = normals_.at(facet, corner);
-    return value == nullptr ? Vec3(0) : Vec3((*value)[0], (*value)[1], (*value)[2]);
-  };
-  const std::array<Vec3, 3> normals = {at(0), at(1), at(2)};
+ShadingNormal FacetAttributes::normal(std::uint32_t facet, double u, double v,
+                                      const Vec3& facet_normal) const {
   const std::array<double, 3> weights = {1 - u - v, u, v};
+  std::array<Vec3, 3> normals;
+  double horizon = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const auto* const value = normals_.at(facet, i);
+    normals[i] = value == nullptr ? Vec3(0) : Vec3((*value)[0], (*value)[1], (*value)[2]);
+    if (value != nullptr) horizon += weights[i] * double{(*value)[3]};
+  }
   const double side = glm::dot(normals[0] + normals[1] + normals[2], facet_normal);
   const double sign = side < 0 ? -1 : 1;
   Vec3 sum(0);
   for (std::size_t i = 0; i < normals.size(); ++i)
     sum += weights[i] * (normals[i] == Vec3(0) ? facet_normal : sign * normals[i]);
-  const Vec3 direction = direction_and_length(sum).direction;
-  return direction == Vec3(0) ? facet_normal : direction;
+  const auto [direction, length] = direction_and_length(sum);
+  if (direction == Vec3(0)) return {facet_normal};
+  return {direction, std::min(1.0, horizon / length)};
 }
 
 std::size_t FacetAttributes::bytes() const {

@@ -32,6 +32,18 @@ struct CornerValues {
   }
 };
 
+/// CornerNormals are unit normals, or 0, and behind each the sine of the largest angle between it
+/// and the normal of a facet that has it.
+using CornerNormals = CornerValues<4>;
+
+/// A ShadingNormal is a normal for shading, which has unit length.
+struct ShadingNormal {
+  Vec3 direction;
+  /// Where the cosine of the angle to light is no more than this, a facet near to the point may be
+  /// turned away from the light.
+  double horizon = 0;
+};
+
 /// GivenFacets say which of the triangles that a mesh was made of became its facets.
 struct GivenFacets {
   std::span<const TriangleIndices> triangles;  ///< as they were given
@@ -55,10 +67,9 @@ class FacetAttributes {
   bool has_uv() const { return !uv_.empty(); }
   bool has_materials() const { return !materials_.empty(); }
 
-  /// Returns the normal for shading where the second and the third corner have such weights. It has
-  /// unit length, and points to the side of the facet that the corners' normals are on with
-  /// `facet_normal`.
-  Vec3 normal(std::uint32_t facet, double u, double v, const Vec3& facet_normal) const;
+  /// Returns the normal for shading where the second and the third corner have such weights. The
+  /// corners' normals together are on the side of `facet_normal`.
+  ShadingNormal normal(std::uint32_t facet, double u, double v, const Vec3& facet_normal) const;
 
   /// Puts the (u, v) of a point in the place of the weights of a facet's second and third corner.
   template <class Real>
@@ -74,7 +85,7 @@ class FacetAttributes {
   std::size_t bytes() const;
 
  private:
-  CornerValues<3> normals_;
+  CornerNormals normals_;
   CornerValues<2> uv_;
   std::vector<SharedMaterial> materials_;
   std::vector<std::uint32_t> materials_of_;  ///< facets; empty if all have the first
@@ -100,7 +111,10 @@ void FacetAttributes::weights_to_uv(std::uint32_t facet, Real& u, Real& v) const
 /// that they alone share if their normals are at most `angle` apart.
 ///
 /// Source: Thuermer and Wuethrich, Computing vertex normals from polygonal facets, 1998.
-CornerValues<3> smooth_normals(const MeshTriangles& mesh, std::span<const EdgePair> pairs,
-                               double angle);
+CornerNormals smooth_normals(const MeshTriangles& mesh, std::span<const EdgePair> pairs,
+                             double angle);
+
+/// Finds the angles between normals and those of facets.
+void find_largest_angles(const MeshTriangles& mesh, CornerNormals& normals);
 
 }  // namespace crt::core

@@ -37,7 +37,8 @@ bool MeshShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return standard_crossings(*triangles_, ray, out);
 }
 
-Vec3 MeshShape::shading_normal(std::uint32_t face, const Vec3& position, const Vec3& normal) const {
+ShadingNormal MeshShape::shading_normal(std::uint32_t face, const Vec3& position,
+                                        const Vec3& normal) const {
   const Triangle triangle = triangles_->triangle(face);
   double u = 0;
   double v = 0;

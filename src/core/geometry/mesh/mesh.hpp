@@ -41,9 +41,9 @@ class MeshShape final : public Shape {
     facet(face).points_on(offsets, directions, 0, with_uv, points);
     if (with_uv && has_uv_) facet_attributes()->weights_to_uv(face, points.u, points.v);
   }
-  /// Returns the normal for shading at a point of a facet with normals, of unit length. `normal` is
-  /// the facet's, of either sign, and the result is on that side.
-  Vec3 shading_normal(std::uint32_t face, const Vec3& position, const Vec3& normal) const;
+  /// Returns the normal for shading at a point of a facet with normals. `normal` is the facet's, of
+  /// either sign, and the result is on that side.
+  ShadingNormal shading_normal(std::uint32_t face, const Vec3& position, const Vec3& normal) const;
   std::uint32_t face_count() const override { return triangles_->size(); }
   Surface surface(std::uint32_t face) const override;
   const FacetAttributes* facet_attributes() const override { return triangles_->attributes(); }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -17,6 +18,10 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+Vec3 normal_of(const MeshTriangles& mesh, std::uint32_t facet) {
+  return direction_and_length(rounded(precise_normal_of(mesh.triangle(facet)))).direction;
+}
+
 /// A SmoothSurface has the normals of facets, and which of their corners are one. Corner k of facet
 /// f has the number 3 f + k.
 class SmoothSurface {
@@ -25,10 +30,8 @@ class SmoothSurface {
     first_of_.resize(std::size_t{3} * mesh.size());
     std::iota(first_of_.begin(), first_of_.end(), 0u);
     normals_.reserve(mesh.size());
-    for (std::uint32_t facet = 0; facet < mesh.size(); ++facet) {
-      const PreciseVec3 normal = precise_normal_of(mesh.triangle(facet));
-      normals_.push_back(direction_and_length(rounded(normal)).direction);
-    }
+    for (std::uint32_t facet = 0; facet < mesh.size(); ++facet)
+      normals_.push_back(normal_of(mesh, facet));
   }
 
   /// Makes two facets one surface where they share an edge, if their normals are that near.
@@ -50,11 +53,11 @@ class SmoothSurface {
     }
   }
 
-  CornerValues<3> normals() {
+  CornerNormals normals() {
     std::vector<Vec3> sums(first_of_.size(), Vec3(0));
     for (std::uint32_t corner = 0; corner < first_of_.size(); ++corner)
       sums[first(corner)] += angle_at(corner) * normals_[corner / 3];
-    CornerValues<3> result;
+    CornerNormals result;
     result.of_facets.resize(normals_.size());
     // A corner's first one has its number before the others ask for it.
     for (std::uint32_t corner = 0; corner < first_of_.size(); ++corner) {
@@ -67,7 +70,7 @@ class SmoothSurface {
       index = static_cast<std::uint32_t>(result.values.size());
       const Vec3 unit = direction_and_length(sums[corner]).direction;
       result.values.push_back(
-          {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)});
+          {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z), 0});
     }
     result.values.shrink_to_fit();
     return result;
@@ -105,11 +108,31 @@ class SmoothSurface {
 
 }  // namespace
 
-CornerValues<3> smooth_normals(const MeshTriangles& mesh, std::span<const EdgePair> pairs,
-                               double angle) {
+CornerNormals smooth_normals(const MeshTriangles& mesh, std::span<const EdgePair> pairs,
+                             double angle) {
   SmoothSurface surface(mesh);
   for (const EdgePair& pair : pairs) surface.join(pair, angle);
   return surface.normals();
+}
+
+void find_largest_angles(const MeshTriangles& mesh, CornerNormals& normals) {
+  for (std::uint32_t facet = 0; facet < normals.of_facets.size(); ++facet) {
+    const Vec3 plain = normal_of(mesh, facet);
+    std::array<Vec3, 3> of_corners = {Vec3(0), Vec3(0), Vec3(0)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (const auto* const value = normals.at(facet, i))
+        of_corners[i] = {(*value)[0], (*value)[1], (*value)[2]};
+    }
+    const double side = glm::dot(of_corners[0] + of_corners[1] + of_corners[2], plain);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t index = normals.of_facets[facet][i];
+      if (index == no_index || of_corners[i] == Vec3(0)) continue;
+      const double cosine = glm::dot(of_corners[i], side < 0 ? -plain : plain);
+      const double sine = cosine <= 0 ? 1 : glm::length(glm::cross(of_corners[i], plain));
+      float& largest = normals.values[index][3];
+      largest = std::max(largest, static_cast<float>(std::min(sine, 1.0)));
+    }
+  }
 }
 
 }  // namespace crt::core
