@@ -531,6 +531,46 @@ CRT_API crt_status crt_mesh_create(const double* positions, size_t vertex_count,
                                    crt_entity** out);
 
 /**
+ * Describes a mesh with more than triangles: normals for shading, (u, v) and materials. What rays
+ * meet and where the inside is, the triangles alone say. In the lists of indices UINT32_MAX says
+ * that there is none.
+ */
+typedef struct crt_mesh {
+  uint32_t struct_size;
+  int32_t reserved;        /**< must be 0 */
+  const double* positions; /**< 3 * vertex_count numbers, as for crt_mesh_create() */
+  uint64_t vertex_count;
+  const uint32_t* indices; /**< 3 * triangle_count numbers, each below vertex_count */
+  uint64_t triangle_count;
+  /** Has 3 * normal_count numbers: normals of any length. One that is 0 stands for that of the
+   * triangle. They are turned to the side of the triangle's own normal. Default NULL. */
+  const double* normals;
+  uint64_t normal_count; /**< default 0 */
+  /** Has 3 * triangle_count numbers that name the normals of the triangles' corners. Default NULL:
+   * those of `indices`, and normal_count is vertex_count. */
+  const uint32_t* normal_indices;
+  const double* uv;           /**< 2 * uv_count numbers, up to 1e30 in magnitude; default NULL */
+  uint64_t uv_count;          /**< default 0 */
+  const uint32_t* uv_indices; /**< name the (u, v) of the corners as normal_indices do normals */
+  /** Has material_count materials. They stand in the place of the default one: a material that the
+   * whole entity gets is put in their place. Default NULL. */
+  const crt_material* const* materials;
+  uint64_t material_count; /**< default 0 */
+  /** Has triangle_count numbers that name the triangles' materials. Default NULL: all have the
+   * first. */
+  const uint32_t* material_of_triangle;
+  /** Is the largest angle in radians, up to pi, between triangles that are shaded as one round
+   * surface across their edge. Their normals are then computed, and those above left alone. 0
+   * leaves all flat. Default -1: the normals above, if there are any. */
+  double smooth;
+} crt_mesh;
+
+/** Fills in a mesh of nothing. */
+CRT_API crt_status crt_mesh_init(crt_mesh* mesh, size_t struct_size);
+/** Makes a mesh with normals, (u, v) or materials, otherwise as crt_mesh_create() does. */
+CRT_API crt_status crt_mesh_create_with(const crt_mesh* mesh, crt_entity** out);
+
+/**
  * Makes a profile without a contour. Add contours, each by crt_profile_move_to() and then by
  * pieces, before you make entities of it: these keep what it is at the time. A contour is closed by
  * a straight piece, unless its last corner repeats the first. The even-odd rule says what is
@@ -844,8 +884,10 @@ CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script
 
 /**
  * Makes an entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is, or else
- * the name. Only positions and faces are read, in the file's own numbers. Vertices with equal
- * coordinates become one, and triangles with two equal corners are left out.
+ * the name. Positions and faces are read in the file's own numbers, of OBJ and PLY also normals and
+ * (u, v), of OBJ materials. Vertices with equal coordinates become one, and triangles with two
+ * equal corners are left out. Material libraries and pictures that cannot be read are left out,
+ * too. Without options they are looked for in the directory of the file and those below.
  * @param path     where the file is
  * @param options  NULL opens the file of that path. With options, the file is looked for like those
  *                 of a script in the current directory: resource_directories, allow_outside_files
@@ -854,6 +896,12 @@ CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script
  */
 CRT_API crt_status crt_mesh_load(const char* path, const crt_script_options* options,
                                  crt_entity** out);
+/**
+ * Makes an entity of a mesh file whose normals are computed, otherwise as crt_mesh_load() does.
+ * @param smooth  as in crt_mesh
+ */
+CRT_API crt_status crt_mesh_load_smooth(const char* path, const crt_script_options* options,
+                                        double smooth, crt_entity** out);
 
 /** Says how bad a diagnostic is. */
 typedef enum crt_severity { CRT_SEVERITY_WARNING = 0, CRT_SEVERITY_ERROR } crt_severity;

@@ -28,13 +28,11 @@ __all__ = [
     "Empty",
     "Extrusion",
     "HalfPlane",
-    "Mesh",
     "Plane",
     "Revolution",
     "Sphere",
     "Torus",
     "Triangle",
-    "load_mesh",
 ]
 
 
@@ -66,17 +64,6 @@ class _Given(Generic[T]):
     def __set__(self, primitive: "_Primitive", value: NoReturn) -> NoReturn:
         name = type(primitive).__name__
         raise AttributeError(f"a crt.{name} has no {self._name!r} that can be assigned")
-
-
-def load_mesh(
-    path: str | os.PathLike[str], *, material: Material | None = None, id: int | None = None
-) -> Entity:
-    """Returns the entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is,
-    or else the name. A broken file is a crt.Error with its line or byte."""
-    entity = Entity._adopt(create("crt_mesh_load", _arguments.text(path, "load_mesh: path"), None))
-    if material is not None:
-        entity = entity.with_material(material)
-    return entity if id is None else entity.with_id(id)
 
 
 class _Primitive(Entity):
@@ -433,35 +420,3 @@ class Triangle(_Primitive):
         corners = self._vectors(a=a, b=b, c=c)
         shown = dict(zip("abc", map(tuple, corners)))
         self._create("crt_triangle_create", material, id, shown, *corners)
-
-
-class Mesh(_Primitive):
-    """A Mesh is made of triangles: n x 3 positions, and m x 3 indices into them. It is a solid if
-    each edge belongs to an even number of triangles, and else a surface."""
-
-    def __init__(
-        self,
-        positions: ArrayLike,
-        indices: ArrayLike,
-        *,
-        material: Material | None = None,
-        id: SupportsIndex | None = None,
-    ) -> None:
-        try:
-            points = np.ascontiguousarray(positions, np.float64)
-        except (TypeError, ValueError):
-            raise _arguments.refusal("Mesh: positions", "n x 3 numbers", positions) from None
-        corners = np.asarray(indices)
-        if points.ndim != 2 or points.shape[1] != 3:
-            raise ValueError(f"Mesh: positions must be n x 3 numbers, not {points.shape}")
-        if corners.ndim != 2 or corners.shape[1] != 3:
-            raise ValueError(f"Mesh: indices must be m x 3 whole numbers, not {corners.shape}")
-        if corners.dtype.kind not in "iu" or (corners < 0).any() or (corners >= len(points)).any():
-            raise ValueError(
-                "Mesh: indices must be whole numbers below the number of positions,"
-                f" which is {len(points)}"
-            )
-        corners = np.ascontiguousarray(corners, np.uint32)
-        arrays = points.ctypes.data, len(points), corners.ctypes.data, len(corners)
-        shown = {"positions": f"<{len(points)} x 3>", "indices": f"<{len(corners)} x 3>"}
-        self._create("crt_mesh_create", material, id, shown, *arrays)

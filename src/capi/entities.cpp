@@ -12,15 +12,6 @@ namespace crt::capi {
 
 namespace {
 
-/// Makes an entity and hands it out.
-template <class Make>
-crt_status create(crt_entity** out, const Make& make) {
-  return guarded([&] {
-    require(out, "out");
-    *out = new crt_entity(make());
-  });
-}
-
 /// Returns the entities behind `count` handles.
 std::vector<Entity> to_entities(crt_entity* const* handles, std::size_t count,
                                 const char* argument) {
@@ -46,25 +37,6 @@ Transform to_transform(const double* affine) {
           .row_y = {m[4], m[5], m[6]},
           .row_z = {m[8], m[9], m[10]},
           .translation = {m[3], m[7], m[11]}};
-}
-
-Entity to_mesh(const double* positions, std::size_t vertex_count, const std::uint32_t* indices,
-               std::size_t triangle_count) {
-  require(positions, "positions");
-  require(indices, "indices");
-  std::vector<Vec3> corners;
-  corners.reserve(vertex_count);
-  for (std::size_t i = 0; i < vertex_count; ++i) {
-    const double* const p = positions + 3 * i;
-    corners.emplace_back(p[0], p[1], p[2]);
-  }
-  std::vector<TriangleIndices> triangles;
-  triangles.reserve(triangle_count);
-  for (std::size_t i = 0; i < triangle_count; ++i) {
-    const std::uint32_t* const t = indices + 3 * i;
-    triangles.push_back({t[0], t[1], t[2]});
-  }
-  return triangle_mesh(corners, triangles);
 }
 
 }  // namespace
@@ -148,11 +120,6 @@ crt_status crt_triangle_create(const double a[3], const double b[3], const doubl
   return create(out, [&] {
     return crt::Triangle{.a = to_vec3(a, "a"), .b = to_vec3(b, "b"), .c = to_vec3(c, "c")};
   });
-}
-
-crt_status crt_mesh_create(const double* positions, size_t vertex_count, const uint32_t* indices,
-                           size_t triangle_count, crt_entity** out) {
-  return create(out, [&] { return to_mesh(positions, vertex_count, indices, triangle_count); });
 }
 
 crt_status crt_empty_create(crt_entity** out) {

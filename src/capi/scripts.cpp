@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -194,11 +195,18 @@ crt_status crt_scene_from_script_file(const char* path, const crt_script_options
 }
 
 crt_status crt_mesh_load(const char* path, const crt_script_options* options, crt_entity** out) {
-  return guarded([&] {
+  constexpr double as_the_file_has_it = -1;
+  return crt_mesh_load_smooth(path, options, as_the_file_has_it, out);
+}
+
+crt_status crt_mesh_load_smooth(const char* path, const crt_script_options* options, double smooth,
+                                crt_entity** out) {
+  return create(out, [&] {
     require(path, "path");
-    require(out, "out");
-    *out = new crt_entity(options == nullptr ? crt::load_mesh(path)
-                                             : crt::load_mesh(path, to_options(options)));
+    if (!(smooth <= std::numbers::pi)) reject("smooth", "must be an angle of at most pi");
+    const std::optional<double> angle = smooth < 0 ? std::nullopt : std::optional(smooth);
+    return options == nullptr ? crt::load_mesh(path, angle)
+                              : crt::load_mesh(path, to_options(options), angle);
   });
 }
 

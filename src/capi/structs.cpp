@@ -34,6 +34,27 @@ std::span<const std::size_t> field_ends<crt_material>() {
 }
 
 template <>
+std::span<const std::size_t> field_ends<crt_mesh>() {
+  using S = crt_mesh;
+  static constexpr std::array ends = {CRT_END(S, reserved),
+                                      CRT_END(S, positions),
+                                      CRT_END(S, vertex_count),
+                                      CRT_END(S, indices),
+                                      CRT_END(S, triangle_count),
+                                      CRT_END(S, normals),
+                                      CRT_END(S, normal_count),
+                                      CRT_END(S, normal_indices),
+                                      CRT_END(S, uv),
+                                      CRT_END(S, uv_count),
+                                      CRT_END(S, uv_indices),
+                                      CRT_END(S, materials),
+                                      CRT_END(S, material_count),
+                                      CRT_END(S, material_of_triangle),
+                                      CRT_END(S, smooth)};
+  return ends;
+}
+
+template <>
 std::span<const std::size_t> field_ends<crt_light>() {
   using S = crt_light;
   static constexpr std::array ends = {CRT_END(S, type),   CRT_END(S, origin),  CRT_END(S, pointing),

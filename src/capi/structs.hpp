@@ -12,6 +12,15 @@
 
 namespace crt::capi {
 
+/// Makes an entity and hands it out.
+template <class Make>
+crt_status create(crt_entity** out, const Make& make) {
+  return guarded([&] {
+    require(out, "out");
+    *out = new crt_entity(make());
+  });
+}
+
 /// Returns three numbers from the caller, and throws for NULL. The C++ interface checks whether
 /// they are good.
 Vec3 to_vec3(const double* numbers, const char* argument);

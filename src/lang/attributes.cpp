@@ -213,10 +213,10 @@ void convert(const Given& given, Context& context, std::shared_ptr<const Image>&
   field = context.files.image(name, directory, given.value_span, context.reporter);
 }
 
-void convert(const Given& given, Context& context, std::shared_ptr<const Entity>& field) {
-  const std::string& name = get<String>(given)->text;
-  const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
-  field = context.files.mesh(name, directory, given.value_span);
+void convert(const Given& given, Context& context, FileName& field) {
+  field = {.name = get<String>(given)->text,
+           .directory = context.sources.source_of(given.value_span).directory,
+           .span = given.value_span};
 }
 
 void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field) {

@@ -2,6 +2,7 @@
 // for each type of field, which also says what the attribute takes.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,13 @@
 
 namespace crt::lang {
 
+/// A FileName is a file as a script names it, and where.
+struct FileName {
+  std::string name;
+  std::filesystem::path directory;  ///< of the script
+  Span span;
+};
+
 // Each throws a Failure at the value if it has another type, or numbers that are not finite.
 void convert(const Given& given, Context& context, double& field);
 void convert(const Given& given, Context& context, int& field);
@@ -34,7 +42,7 @@ void convert(const Given& given, Context& context, std::vector<ColorStop>& field
 void convert(const Given& given, Context& context, ImageMapping& field);
 void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
-void convert(const Given& given, Context& context, std::shared_ptr<const Entity>& field);
+void convert(const Given& given, Context& context, FileName& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field);
 void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
@@ -96,7 +104,7 @@ constexpr std::string_view type_text(const SharedMaterial*) {
 constexpr std::string_view type_text(const std::shared_ptr<const Image>*) {
   return "String";
 }
-constexpr std::string_view type_text(const std::shared_ptr<const Entity>*) {
+constexpr std::string_view type_text(const FileName*) {
   return "String";
 }
 constexpr std::string_view type_text(const std::shared_ptr<const Profile>*) {

@@ -156,19 +156,52 @@ std::shared_ptr<const Image> Files::image(const std::string& name, const fs::pat
   return image;
 }
 
-std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::path& directory,
-                                          Span span) {
-  const Found found = find(name, directory, span);
-  std::shared_ptr<const Entity>& mesh = meshes_[found.path];
-  if (!mesh) {
-    try {
-      mesh = std::make_shared<const Entity>(
-          found.content ? load_mesh(*found.content, found.shown.string()) : load_mesh(found.shown));
-    } catch (const Error& error) {
-      throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
-    }
+/// Returns the content of a file that a mesh file names, such as a picture.
+std::vector<std::byte> Files::part_of_mesh(const std::string& name, const fs::path& directory,
+                                           Span span) const {
+  constexpr std::size_t most_bytes = std::size_t{1} << 32;
+  try {
+    Found found = find(name, directory, span);
+    if (found.content) return std::move(*found.content);
+    const std::string text = read_text(std::move(found), most_bytes, span);
+    const auto* const bytes = reinterpret_cast<const std::byte*>(text.data());
+    return {bytes, bytes + text.size()};
+  } catch (const Failure& failure) {
+    throw Error(ErrorCode::io, failure.message);
   }
-  return mesh;
+}
+
+std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::path& directory,
+                                          Span span, std::optional<double> smooth,
+                                          Reporter* reporter) {
+  const Found found = find(name, directory, span);
+  SmoothMeshes& meshes = meshes_[found.path];
+  const auto known = meshes.find(smooth);
+  if (known != meshes.end()) return known->second;
+  constexpr std::size_t most_angles = 16;
+  if (meshes.size() == most_angles) {
+    throw Failure{.span = span,
+                  .message = fmt::format("'{}' is smoothed by more than {} different angles",
+                                         abbreviated(name), most_angles),
+                  .code = ErrorCode::limit};
+  }
+  try {
+    const std::string shown = found.shown.string();
+    const OpenMeshPart open = [&](const std::string& part) {
+      return part_of_mesh(part, found.shown.parent_path(), span);
+    };
+    MeshFile file = found.content ? decode_mesh_file(*found.content, shown, {}, open)
+                                  : read_mesh_file(found.shown, open);
+    file.attributes.smooth = smooth;
+    auto mesh = std::make_shared<const Entity>(load_mesh(file, shown));
+    if (reporter != nullptr) {
+      for (const std::string& warning : file.warnings)
+        reporter->warning(span, printable(fmt::format("'{}': {}", shown, warning)));
+    }
+    return meshes[smooth] = std::move(mesh);
+  } catch (const Error& error) {
+    throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
+  }
 }
 
 std::optional<std::string> read_regular_file(const fs::path& path, std::size_t most_bytes) {

@@ -46,20 +46,25 @@ class Files {
                                      const std::filesystem::path& directory, Span span,
                                      Reporter& reporter);
 
-  /// Returns the entity of a mesh file, which is read once a run.
+  /// Returns the entity of a mesh file, which is read once a run for each `smooth` (see
+  /// MeshAttributes, in radians). Warnings go to the reporter, if there is one.
   std::shared_ptr<const Entity> mesh(const std::string& name,
-                                     const std::filesystem::path& directory, Span span);
+                                     const std::filesystem::path& directory, Span span,
+                                     std::optional<double> smooth, Reporter* reporter);
 
  private:
   std::vector<std::filesystem::path> candidates(const std::string& name,
                                                 const std::filesystem::path& directory) const;
   bool is_open(const std::filesystem::path& candidate) const;
   bool is_really_open(const std::filesystem::path& canonical) const;
+  std::vector<std::byte> part_of_mesh(const std::string& name,
+                                      const std::filesystem::path& directory, Span span) const;
 
   const ScriptOptions& options_;
   std::filesystem::path script_directory_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
-  std::map<std::filesystem::path, std::shared_ptr<const Entity>> meshes_;
+  using SmoothMeshes = std::map<std::optional<double>, std::shared_ptr<const Entity>>;
+  std::map<std::filesystem::path, SmoothMeshes> meshes_;
 };
 
 /// Returns the whole of a regular file, or nothing if it cannot be read or has more than

@@ -4,10 +4,11 @@
 
 namespace crt {
 
-Entity load_mesh(const std::filesystem::path& path, const ScriptOptions& options) {
+Entity load_mesh(const std::filesystem::path& path, const ScriptOptions& options,
+                 std::optional<double> smooth) {
   lang::Files files(options);
   try {
-    return *files.mesh(path.string(), {}, {});
+    return *files.mesh(path.string(), {}, {}, smooth, nullptr);
   } catch (const lang::Failure& failure) {
     throw Error(failure.code, failure.message);
   }

@@ -29,8 +29,8 @@ AttributeType required(std::string_view name, Field Object::*field) {
 }
 
 /// Makes an attribute for an angle that a script gives in degrees and the core takes in radians.
-template <class Object>
-AttributeType degrees(std::string_view name, double Object::*field, std::string_view default_text,
+template <class Object, class Angle>
+AttributeType degrees(std::string_view name, Angle Object::*field, std::string_view default_text,
                       std::string_view rule) {
   constexpr double radians_per_degree = std::numbers::pi / 180;
   AttributeType type = attribute(name, field, default_text);

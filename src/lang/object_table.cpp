@@ -43,13 +43,19 @@ ObjectType entity(std::string_view name, std::vector<AttributeType> attributes) 
 
 /// A MeshOfFile is an entity whose shape is in a file.
 struct MeshOfFile {
-  std::shared_ptr<const Entity> file;
+  FileName file;
+  std::optional<double> smooth;
   std::optional<SharedMaterial> material;
 };
 
 Value finish_mesh(MeshOfFile mesh, const ObjectSite& site) {
-  site.context.count_made(site.name_span);
-  return mesh.material ? mesh.file->with_material(*mesh.material) : *mesh.file;
+  if (mesh.smooth && !(*mesh.smooth >= 0 && *mesh.smooth <= std::numbers::pi))
+    throw Error(ErrorCode::invalid_argument, "smooth must be from 0 to 180 degrees", "smooth");
+  Context& context = site.context;
+  context.count_made(site.name_span);
+  const auto& [name, directory, span] = mesh.file;
+  const auto entity = context.files.mesh(name, directory, span, mesh.smooth, &context.reporter);
+  return mesh.material ? entity->with_material(*mesh.material) : *entity;
 }
 
 std::vector<ObjectType> entities() {
@@ -85,7 +91,9 @@ std::vector<ObjectType> entities() {
                                                 "must be greater than 0 and at most 360 degrees")}),
       object<MeshOfFile>("Mesh",
                          {required("file", &MeshOfFile::file),
-                          attribute("material", &MeshOfFile::material, "a grey of 0.5")},
+                          degrees("smooth", &MeshOfFile::smooth, "as the file has it",
+                                  "must be from 0 to 180 degrees"),
+                          attribute("material", &MeshOfFile::material, "as the file has it")},
                          finish_mesh),
   };
 }

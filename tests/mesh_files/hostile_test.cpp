@@ -24,6 +24,12 @@ std::vector<std::string> good_files() {
       "element face 1\nproperty list uchar ushort vertex_index\nend_header\n" +
       repeated(packed(1.0f), 9) + std::string("\3\0\0\0\1\0\2", 7);
   return {"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf -1 -2 -3\n",
+          "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 1\nvn 0 0 1\nmtllib a\nf 1 2 3\nusemtl a\n"
+          "f 1/1/1 2/1/1 3/-1/-1\nusemtl b\nf 1//1 2//1 3//1\n",
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float nx\n" + xyz +
+              "property float ny\nproperty float nz\nproperty float s\nproperty float t\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+              repeated("0 1 2 3 4 5 6 7\n", 3) + "3 0 1 2\n",
           "OFF\n4 1 0\n" + square + "4 0 1 2 3\n",
           "ply\nformat ascii 1.0\nelement vertex 4\n" + xyz +
               "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + square +
@@ -38,9 +44,18 @@ std::vector<std::string> good_files() {
 /// Reads a file that may be broken. It is read or refused, and nothing else happens.
 void read_or_refuse(const std::string& file) {
   try {
-    const MeshFile mesh = decode(file);
+    const OpenMeshPart open = [](const std::string&) {
+      const auto library = bytes_of("newmtl a\nKd 1 0 0\nmap_Kd b\nnewmtl b\nNs 3\nd .5\n");
+      return std::vector<std::byte>(library.begin(), library.end());
+    };
+    const MeshFile mesh = decode_mesh_file(bytes_of(file), "some.name", {}, open);
     for (const TriangleIndices& triangle : mesh.triangles) {
       for (const std::uint32_t corner : triangle) REQUIRE(corner < mesh.positions.size());
+    }
+    try {
+      load_mesh(mesh, "it");
+    } catch (const Error& error) {
+      CHECK(error.argument() == "triangles");  // none has an area
     }
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::io);

@@ -21,13 +21,59 @@ Triangles faces(const std::string& lines) {
 TEST_CASE("corners have texture coordinates and normals, and count from either end") {
   const Triangles one = {{0, 1, 2}};
   CHECK(faces("f 1 2 3") == one);
-  CHECK(faces("f 1/1 2/2 3/3\n") == one);
+  CHECK(faces("vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n") == one);
   CHECK(faces("vn 0 0 1\nf 1//1 2//1 3//1\n") == one);
   CHECK(faces("vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n") == one);
   CHECK(faces("f -4 -3 -2\n") == one);
-  CHECK(faces("f -4/-1/-1 -3/-1/-1 -2/-1/-1\n") == one);
+  CHECK(faces("vt 0 0\nvn 0 0 1\nf -4/-1/-1 -3/-1/-1 -2/-1/-1\n") == one);
   CHECK(decode("v 9 9 9\n" + four + "f -4 -3 -2\nv 8 8 8\nf -5 -4 -3\n").triangles ==
         Triangles{{1, 2, 3}, {1, 2, 3}});
+}
+
+TEST_CASE("corners keep their normals and texture coordinates where they are put together anew") {
+  // The fourth position is the first once more, and the first face has a corner too many.
+  const MeshFile file = decode(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\n"
+      "vn 0 0 1\nvn 0 3 4\nvn 1 0 0\nvt 0.5 0.25\nvt -1\nvt 2 3 4\n"
+      "f 1/1/1 2/2/2 2/3/3 3/3/3\nf 1//1 4//2 2//3\nf 2 3 4\nf 4/1 2/2 3/3\n");
+  const MeshAttributes& attributes = file.attributes;
+  CHECK(file.triangles == Triangles{{0, 1, 2}, {1, 2, 0}, {0, 1, 2}});
+  CHECK(attributes.normals == std::vector<Vec3>{{0, 0, 1}, {0, 3, 4}, {1, 0, 0}});
+  constexpr TriangleIndices none = {no_index, no_index, no_index};
+  CHECK(attributes.normal_indices == Triangles{{0, 1, 2}, none, none});
+  CHECK(attributes.uv == std::vector<std::array<double, 2>>{{0.5, 0.25}, {-1, 0}, {2, 3}});
+  CHECK(attributes.uv_indices == Triangles{{0, 1, 2}, none, {0, 1, 2}});
+  CHECK(attributes.materials.empty());
+}
+
+TEST_CASE("a file has no attributes that no face names") {
+  const MeshAttributes attributes = decode(four + "vn 0 0 1\nvt 0 0\nf 1 2 3\n").attributes;
+  CHECK(attributes.normals.empty());
+  CHECK(attributes.normal_indices.empty());
+  CHECK(attributes.uv.empty());
+  CHECK(attributes.material_of_triangle.empty());
+}
+
+TEST_CASE("what is wrong with normals and texture coordinates is said with its line") {
+  const std::string normal = four + "vn 0 0 1\n";
+  CHECK(decode_error(normal + "f 1//1 2//2 3//1\n") ==
+        "line 6: there is no normal 2: 1 is before this line");
+  CHECK(decode_error(normal + "f 1//-2 2//1 3//1\n") ==
+        "line 6: there is no normal -2: 1 is before this line");
+  CHECK(decode_error(normal + "f 1//0 2//1 3//1\n") ==
+        "line 6: there is no normal 0: they count from 1, or -1 back");
+  CHECK(decode_error(four + "f 1/1 2/1 3/1\n") ==
+        "line 5: there is no texture coordinate 1: 0 are before this line");
+  CHECK(decode_error(four + "vn 0 nan 1\n") ==
+        "line 5: a normal has 'nan'; it should be a number of at most 1e+100 in magnitude");
+  CHECK(decode_error(four + "vn 0 1\n") ==
+        "line 5: a normal has ''; it should be a number of at most 1e+100 in magnitude");
+  CHECK(decode_error(four + "vt 1e31 0\n") ==
+        "line 5: a texture coordinate has '1e31'; it should be a number of at most 1e+30 in "
+        "magnitude");
+  CHECK(decode_error(four + "vt inf\n") ==
+        "line 5: a texture coordinate has 'inf'; it should be a number of at most 1e+30 in "
+        "magnitude");
 }
 
 TEST_CASE("statements that say nothing of the shape are left alone") {

@@ -163,3 +163,52 @@ TEST_CASE("a PLY file that claims more than it holds costs nothing") {
   for (std::size_t size = 0; size < file.size(); ++size)
     CHECK(decode_error(file.substr(0, size), "a.ply") != "");
 }
+
+TEST_CASE("vertices have normals and texture coordinates by any of their names") {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  for (const auto& [u, v] : {std::pair("u", "v"), {"s", "t"}, {"texture_u", "texture_v"}}) {
+    const std::string header = fmt::format(
+        "element vertex 3\nproperty float nz\n{}property float {}\nproperty float nx\n"
+        "property double ny\nproperty float {}\n",
+        xyz, v, u);
+    const MeshFile file = decode(text_file(
+        header + faces, "3 0 0 0 0.5 1 2 0.25\n6 1 0 0 7 4 5 8\n9 0 1 0 11 7 8 10\n3 2 1 0\n"));
+    const MeshAttributes& attributes = file.attributes;
+    CHECK(attributes.normals == std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
+    CHECK(attributes.normal_indices == std::vector<TriangleIndices>{{2, 1, 0}});
+    CHECK(attributes.uv == std::vector<std::array<double, 2>>{{0.25, 0.5}, {8, 7}, {10, 11}});
+    CHECK(attributes.uv_indices == std::vector<TriangleIndices>{{2, 1, 0}});
+  }
+  // Two components are no normal, and a list is no component.
+  const std::string header = "element vertex 3\n" + xyz +
+                             "property float nx\nproperty float ny\n"
+                             "property list uchar float nz\nproperty float u\n";
+  const MeshFile file = decode(
+      text_file(header + faces, "0 0 0 nan 2 1 3 nan\n1 0 0 1 2 0 4\n0 1 0 1 2 0 4\n3 0 1 2\n"));
+  CHECK(file.attributes.normals.empty());
+  CHECK(file.attributes.uv.empty());
+}
+
+TEST_CASE("a normal or texture coordinate that is not finite is refused at its line") {
+  const std::string header =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty float u\n"
+      "property float v\n";
+  CHECK(decode_error(text_file(header + faces, "0 0 0 0 nan 0 0 0\n")) ==
+        "line 15: ny of a vertex is nan; it should be at most 1e+100 in magnitude");
+  CHECK(decode_error(text_file(header + faces, "0 0 0 0 0 1 inf 0\n")) ==
+        "line 15: u of a vertex is inf; it should be at most 1e+30 in magnitude");
+}
+
+TEST_CASE("vertices in two tables have normals if both tables have them") {
+  const std::string table =
+      "element vertex 2\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string normals = "property float nx\nproperty float ny\nproperty float nz\n";
+  const MeshFile mixed = decode(text_file(table + normals + table + faces,
+                                          "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0\n1 1 0\n3 0 1 3\n"));
+  CHECK(mixed.attributes.normals.empty());
+  const MeshFile both =
+      decode(text_file(table + normals + table + normals + faces,
+                       "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n1 1 0 0 0 2\n3 0 1 3\n"));
+  CHECK(both.attributes.normals.size() == 4);
+}

@@ -182,6 +182,9 @@ void Compiler::make_leaves() {
                  leaf.entity_id = source.entity_id;
                  leaf.part_id = source.part_id;
                  leaf.complemented = source.complemented;
+                 leaf.has_materials = source.has_materials;
+                 const FacetAttributes* const facets = leaf.shape->facet_attributes();
+                 leaf.has_normals = facets != nullptr && facets->has_normals();
                  const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
                  leaf.plain_sphere =
                      is_plain ? shape_as<SphereShape>(leaf.shape->typed()) : nullptr;

@@ -160,6 +160,13 @@ void Duplicates::choose() {
   for (std::uint32_t i = 0; i < scene_.materials.size(); ++i) {
     looks.push_back(lets_light_in(*scene_.materials[i]) ? i : opaque);
   }
+  const auto look_of = [&](const Leaf& leaf) {
+    const auto* const first = looks.data() + leaf.material;
+    const auto* const end = first + leaf.material_count();
+    return std::all_of(first, end, [&](std::uint32_t look) { return look == opaque; })
+               ? opaque
+               : leaf.material;
+  };
   std::map<std::vector<std::uint32_t>, bool> seen;
   std::erase_if(scene_.objects, [&](const SceneObject& object) {
     workers_.poll_at(object.first_leaf);
@@ -168,7 +175,7 @@ void Duplicates::choose() {
                                                       : equal_[object.first_leaf]};
     const std::uint32_t end = object.first_leaf + leaf_count(object);
     for (std::uint32_t leaf = object.first_leaf; leaf < end; ++leaf) {
-      if (keeps_leaf_[leaf]) key.push_back(looks[leaves_[leaf].material]);
+      if (keeps_leaf_[leaf]) key.push_back(look_of(leaves_[leaf]));
     }
     if (seen.try_emplace(std::move(key), true).second) return false;
     std::fill(keeps_leaf_.begin() + object.first_leaf, keeps_leaf_.begin() + end, false);

@@ -7,6 +7,7 @@
 #include "core/compile/grouping.hpp"
 #include "core/compile/part.hpp"
 #include "core/compile/surface_table.hpp"
+#include "core/geometry/mesh/mesh.hpp"
 
 namespace crt::core {
 
@@ -40,7 +41,13 @@ class Flattening {
   void expand(const Pending& pending, CsgProgram& program);
   void add_leaf(const Part& part, bool complemented);
   std::uint32_t placement_number(const TransformChain* to_world);
-  std::uint32_t material_number(const Part& part);
+  /// Returns the material that a part was given, or null.
+  static const SharedMaterial* material_of(const Part& part, const Primitive& primitive);
+  const SharedMaterial& default_material();
+  /// Returns the number of a material, or of the default one.
+  std::uint32_t material_number(const SharedMaterial* material);
+  /// Returns the number of the default material before those of facets.
+  std::uint32_t facet_materials(const FacetAttributes& facets);
 
   bool exact_;
   Workers workers_;
@@ -49,6 +56,7 @@ class Flattening {
   Transform last_map_;                  ///< of the last placement
   bool last_is_all_ = true;             ///< whether last_map_ is all of it
   std::unordered_map<const Material*, std::uint32_t> material_numbers_;
+  std::unordered_map<const FacetAttributes*, std::uint32_t> facet_materials_;
   const Material* last_material_ = nullptr;
   std::uint32_t last_material_number_ = 0;
   std::optional<SharedMaterial> default_material_;
@@ -168,12 +176,18 @@ void Flattening::expand(const Pending& pending, CsgProgram& program) {
 
 void Flattening::add_leaf(const Part& part, bool complemented) {
   workers_.poll_at(result_.leaves.size());
-  result_.leaves.push_back({.primitive = std::get_if<Primitive>(&part.node->content),
-                            .placement = placement_number(part.to_world),
-                            .material = material_number(part),
-                            .entity_id = part.id,
-                            .part_id = part.part_id,
-                            .complemented = complemented});
+  const auto& primitive = std::get<Primitive>(part.node->content);
+  const SharedMaterial* const material = material_of(part, primitive);
+  const FacetAttributes* const facets = material ? nullptr : facet_attributes(primitive);
+  const bool has_materials = facets != nullptr && facets->has_materials();
+  result_.leaves.push_back(
+      {.primitive = &primitive,
+       .placement = placement_number(part.to_world),
+       .material = has_materials ? facet_materials(*facets) : material_number(material),
+       .entity_id = part.id,
+       .part_id = part.part_id,
+       .complemented = complemented,
+       .has_materials = has_materials});
   result_.programs_of_leaves.push_back(program_);
 }
 
@@ -194,15 +208,30 @@ std::uint32_t Flattening::placement_number(const TransformChain* to_world) {
   return static_cast<std::uint32_t>(result_.placements.size() - 1);
 }
 
-std::uint32_t Flattening::material_number(const Part& part) {
-  const auto& primitive = std::get<Primitive>(part.node->content);
+const SharedMaterial* Flattening::material_of(const Part& part, const Primitive& primitive) {
   const auto& own = std::visit(
       [](const auto& shape) -> const auto& { return shape.material; }, primitive);
-  const SharedMaterial* material = own ? &*own : part.material;
-  if (material == nullptr) {
-    if (!default_material_) default_material_.emplace(Material{});
-    material = &*default_material_;
+  return own ? &*own : part.material;
+}
+
+const SharedMaterial& Flattening::default_material() {
+  if (!default_material_) default_material_.emplace(Material{});
+  return *default_material_;
+}
+
+std::uint32_t Flattening::facet_materials(const FacetAttributes& facets) {
+  const auto [entry, added] =
+      facet_materials_.try_emplace(&facets, static_cast<std::uint32_t>(result_.materials.size()));
+  if (added) {
+    result_.materials.push_back(default_material());
+    result_.materials.insert(result_.materials.end(), facets.materials().begin(),
+                             facets.materials().end());
   }
+  return entry->second;
+}
+
+std::uint32_t Flattening::material_number(const SharedMaterial* material) {
+  if (material == nullptr) material = &default_material();
   if (&**material == last_material_) return last_material_number_;
   const auto [entry, added] = material_numbers_.try_emplace(
       &**material, static_cast<std::uint32_t>(result_.materials.size()));

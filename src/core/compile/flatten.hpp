@@ -19,6 +19,7 @@ struct LeafSource {
   std::uint32_t entity_id = 0;
   std::uint32_t part_id = 0;
   bool complemented = false;
+  bool has_materials = false;  ///< of facets, from the one behind `material` on
 };
 
 struct FlatScene {

@@ -16,6 +16,7 @@
 #include "core/csg/placement.hpp"
 #include "core/geometry/bvh.hpp"
 #include "core/geometry/exact_shape.hpp"
+#include "core/geometry/mesh/facet_attributes.hpp"
 #include "core/geometry/shape.hpp"
 
 namespace crt::core {
@@ -60,8 +61,21 @@ struct Leaf {
   /// A leaf of more faces than this has its shared faces in a list, if there are any.
   static constexpr std::uint32_t few_faces = 8;
   std::unique_ptr<const SharedFaces> shared_faces;
+  bool has_normals = false;  ///< its facets have normals for shading
+  bool has_materials =
+      false;                  ///< its facets have materials of their own, which `material` precedes
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface
+
+  /// Returns the number of the material of a face.
+  std::uint32_t material_of(std::uint32_t face) const {
+    return has_materials ? material + shape->facet_attributes()->material(face) : material;
+  }
+  /// Returns how many materials it has, from `material` on.
+  std::uint32_t material_count() const {
+    if (!has_materials) return 1;
+    return 1 + static_cast<std::uint32_t>(shape->facet_attributes()->materials().size());
+  }
 };
 
 struct CsgNode {

@@ -74,6 +74,8 @@ struct CoreSegment {
   double most_reach() const { return std::max(from_reach, to_reach); }
 };
 
+class FacetAttributes;
+
 class Shape {
  public:
   Shape() = default;
@@ -138,6 +140,9 @@ class Shape {
   /// coincide.
   virtual std::uint32_t face_count() const = 0;
   virtual Surface surface(std::uint32_t face) const = 0;
+
+  /// Returns what its facets have beyond what rays meet, or null. Only meshes may have any.
+  virtual const FacetAttributes* facet_attributes() const { return nullptr; }
 
   /// Returns the bytes of memory it takes.
   virtual std::size_t bytes() const = 0;

@@ -90,7 +90,9 @@ std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
     const SceneObject& object = scene.objects[index];
     const std::span<const Leaf> leaves = scene.leaves_of(object);
     if (!object.solid || std::none_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
-          return lets_light_in(*materials[leaf.material]);
+          const auto of_leaf = materials.subspan(leaf.material, leaf.material_count());
+          return std::any_of(of_leaf.begin(), of_leaf.end(),
+                             [](const auto& material) { return lets_light_in(*material); });
         })) {
       return false;
     }

@@ -74,7 +74,8 @@ class All final : public ObjectQuery<All> {
 
   bool take(const RayHit& hit) {
     if (!is_before_end(hit)) return false;
-    stopped = opacity_ != nullptr && opacity_->of_materials[accelerator_.leaf(hit.leaf).material];
+    stopped = opacity_ != nullptr &&
+              opacity_->of_materials[accelerator_.leaf(hit.leaf).material_of(hit.face)];
     if (!stopped) hits_.push_back(hit);
     return !stopped;
   }

@@ -1,10 +1,13 @@
 #include "core/mesh_files/mesh_builder.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <utility>
 
 #include "core/geometry/mesh/equal_positions.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
+#include "crt/error.hpp"
 
 namespace crt::core {
 
@@ -35,17 +38,56 @@ void MeshBuilder::add_position(const Vec3& position) {
   positions_.emplace_back(position.x + 0.0, position.y + 0.0, position.z + 0.0);
 }
 
-void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
-  if (corners.size() == 3) {
-    triangles_.push_back({corners[0], corners[1], corners[2]});
+std::vector<std::byte> MeshBuilder::open(const std::string& name) const {
+  if (open_) return open_(name);
+  throw Error(ErrorCode::io, fmt::format("there is no file '{}'", name));
+}
+
+void MeshBuilder::warn(const std::string& message) {
+  constexpr std::size_t most_warnings = 20;
+  if (warnings_.size() < most_warnings) warnings_.push_back(message);
+}
+
+void CornerIndices::add(std::size_t triangle, std::span<const std::uint32_t> of_face,
+                        std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  if (of_face.empty()) return;
+  indices_.resize(triangle, {no_index, no_index, no_index});
+  indices_.push_back({of_face[a], of_face[b], of_face[c]});
+}
+
+void CornerIndices::move(std::size_t from, std::size_t to) {
+  if (to >= indices_.size()) return;
+  indices_[to] =
+      from < indices_.size() ? indices_[from] : TriangleIndices{no_index, no_index, no_index};
+}
+
+std::vector<TriangleIndices> CornerIndices::take(std::size_t triangles) {
+  if (!indices_.empty()) indices_.resize(triangles, {no_index, no_index, no_index});
+  return std::exchange(indices_, {});
+}
+
+void MeshBuilder::add_triangle(const FaceCorners& face, std::uint32_t a, std::uint32_t b,
+                               std::uint32_t c) {
+  normals_of_.add(triangles_.size(), face.normals, a, b, c);
+  uv_of_.add(triangles_.size(), face.uv, a, b, c);
+  if (material_ != no_index) {
+    material_of_.resize(triangles_.size(), no_index);
+    material_of_.push_back(material_);
+  }
+  triangles_.push_back({face.positions[a], face.positions[b], face.positions[c]});
+}
+
+void MeshBuilder::add_face(const FaceCorners& face) {
+  if (face.positions.size() == 3) {
+    add_triangle(face, 0, 1, 2);
     return;
   }
   corners_.clear();
   places_.clear();
-  for (const std::uint32_t corner : corners) {
-    const Vec3& place = positions_[corner];
+  for (std::uint32_t i = 0; i < face.positions.size(); ++i) {
+    const Vec3& place = positions_[face.positions[i]];
     if (!places_.empty() && places_.back() == place) continue;
-    corners_.push_back(corner);
+    corners_.push_back(i);
     places_.push_back(place);
   }
   while (places_.size() > 1 && places_.front() == places_.back()) {
@@ -57,7 +99,7 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
     return;
   }
   for (const auto& [a, b, c] : cutter_.cut(places_))
-    triangles_.push_back({corners_[a], corners_[b], corners_[c]});
+    add_triangle(face, corners_[a], corners_[b], corners_[c]);
   if (cutter_.steps() > PolygonCutter::most_steps) {
     throw RefusedMesh(
         "cutting its faces into triangles takes too long: they have many corners and are not "
@@ -65,21 +107,51 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
   }
 }
 
+/// Leaves out triangles with equal corners.
+void MeshBuilder::drop_flat() {
+  if (!material_of_.empty()) material_of_.resize(triangles_.size(), no_index);
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const auto [a, b, c] = triangles_[i];
+    if (a == b || b == c || c == a) continue;
+    triangles_[left] = triangles_[i];
+    normals_of_.move(i, left);
+    uv_of_.move(i, left);
+    if (!material_of_.empty()) material_of_[left] = material_of_[i];
+    ++left;
+  }
+  dropped_ += triangles_.size() - left;
+  triangles_.resize(left);
+}
+
+MeshAttributes MeshBuilder::take_attributes() {
+  MeshAttributes attributes;
+  attributes.normal_indices = normals_of_.take(triangles_.size());
+  if (!attributes.normal_indices.empty()) attributes.normals = std::exchange(normals_, {});
+  attributes.uv_indices = uv_of_.take(triangles_.size());
+  if (!attributes.uv_indices.empty()) attributes.uv = std::exchange(uv_, {});
+  if (material_of_.empty() || materials_.empty()) return attributes;
+  material_of_.resize(triangles_.size());
+  attributes.materials = std::exchange(materials_, {});
+  attributes.material_of_triangle = std::exchange(material_of_, {});
+  return attributes;
+}
+
 MeshFile MeshBuilder::finish() {
   const std::vector<std::uint32_t> vertex_of = weld(positions_);
   for (TriangleIndices& triangle : triangles_) {
     for (std::uint32_t& corner : triangle) corner = vertex_of[corner];
   }
-  dropped_ += std::erase_if(triangles_, [](const TriangleIndices& triangle) {
-    const auto& [a, b, c] = triangle;
-    return a == b || b == c || c == a;
-  });
+  drop_flat();
   if (triangles_.empty()) {
     throw RefusedMesh(dropped_ > 0 ? "each of its faces has equal corners" : "it has no faces");
   }
+  MeshAttributes attributes = take_attributes();
   return {.positions = std::exchange(positions_, {}),
           .triangles = std::exchange(triangles_, {}),
-          .dropped_triangles = std::exchange(dropped_, 0)};
+          .dropped_triangles = std::exchange(dropped_, 0),
+          .attributes = std::move(attributes),
+          .warnings = std::exchange(warnings_, {})};
 }
 
 }  // namespace crt::core

@@ -40,49 +40,65 @@ void read_as(MeshFormat format, std::string_view content, MeshBuilder& mesh) {
   }
 }
 
-MeshFile decode(std::string_view content, const std::string& name,
-                std::optional<MeshFormat> format) {
+MeshFile decode(std::string_view content, const std::string& name, std::optional<MeshFormat> format,
+                const OpenMeshPart& open) {
   content = without_byte_order_mark(content);
   if (content.empty()) throw RefusedMesh("it is empty");
   if (!format) format = mesh_format(content, name);
   if (!format) throw RefusedMesh("it is no OBJ, PLY, STL, 3MF or OFF file");
-  MeshBuilder mesh;
+  MeshBuilder mesh(open);
   read_as(*format, content, mesh);
   MeshFile file = mesh.finish();
   file.format = *format;
   return file;
 }
 
-Entity entity_of(const MeshFile& file, const std::string& name) {
-  try {
-    return triangle_mesh(file.positions, file.triangles);
-  } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("cannot make a mesh of '{}': {}", name, error.what()));
-  }
+/// Returns what opens files in a directory and those below.
+OpenMeshPart opener_in(const std::filesystem::path& directory) {
+  return [directory](const std::string& name) {
+    const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
+    if (path.empty() || path.has_root_path() || *path.begin() == "..") {
+      throw Error(ErrorCode::io,
+                  fmt::format("'{}' lies outside the directory of the mesh file", name));
+    }
+    return read_whole_file(directory / path, most_bytes);
+  };
 }
 
 }  // namespace
 
 MeshFile decode_mesh_file(std::span<const std::byte> content, const std::string& name,
-                          std::optional<MeshFormat> format) {
+                          std::optional<MeshFormat> format, const OpenMeshPart& open) {
   const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
   try {
-    return decode(text, name, format);
+    return decode(text, name, format, open);
   } catch (const RefusedMesh& refusal) {
     throw Error(ErrorCode::io, fmt::format("cannot read '{}': {}", name, refusal.what()));
   }
 }
 
-MeshFile read_mesh_file(const std::filesystem::path& path) {
-  return decode_mesh_file(read_whole_file(path, most_bytes), path.string());
+MeshFile read_mesh_file(const std::filesystem::path& path, const OpenMeshPart& open) {
+  return decode_mesh_file(read_whole_file(path, most_bytes), path.string(), {},
+                          open ? open : opener_in(path.parent_path()));
 }
 
-Entity load_mesh(const std::filesystem::path& path) {
-  return entity_of(read_mesh_file(path), path.string());
+Entity load_mesh(const MeshFile& file, const std::string& name) {
+  try {
+    return triangle_mesh(file.positions, file.triangles, file.attributes);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("cannot make a mesh of '{}': {}", name, error.what()),
+                error.argument());
+  }
+}
+
+Entity load_mesh(const std::filesystem::path& path, std::optional<double> smooth) {
+  MeshFile file = read_mesh_file(path);
+  file.attributes.smooth = smooth;
+  return load_mesh(file, path.string());
 }
 
 Entity load_mesh(std::span<const std::byte> content, const std::string& name) {
-  return entity_of(decode_mesh_file(content, name), name);
+  return load_mesh(decode_mesh_file(content, name), name);
 }
 
 }  // namespace crt

@@ -8,9 +8,13 @@ namespace crt::core {
 enum class ObjStatement {
   vertex,
   face,
-  other,    ///< about what is no part of the shape, or about points and lines
-  curved,   ///< makes curves or curved surfaces
-  unknown,  ///< none of OBJ's
+  normal,
+  uv,
+  material,  ///< of the faces that follow
+  library,   ///< of materials
+  other,     ///< about what is no part of the shape, or about points and lines
+  curved,    ///< makes curves or curved surfaces
+  unknown,   ///< none of OBJ's
 };
 
 /// Returns the kind of statement that a line begins with.

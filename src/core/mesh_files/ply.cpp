@@ -176,27 +176,75 @@ class PlyReader {
     return static_cast<std::uint64_t>(count);
   }
 
-  void read_vertices(const PlyElement& element) {
-    std::array<std::size_t, 3> places{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string_view name = std::string_view("xyz").substr(axis, 1);
-      const std::optional<std::size_t> place = find_property(element, {name});
-      if (!place || element.properties[*place].count_type)
-        throw RefusedMesh(fmt::format("its vertices have no property {}", in_quotes(name)));
-      places[axis] = *place;
+  /// A VertexPlaces says which properties of vertices are read: x, y, z, the normal, u and v.
+  using VertexPlaces = std::array<std::optional<std::size_t>, 8>;
+  static constexpr std::size_t first_of_normal = 3;
+  static constexpr std::size_t first_of_uv = 6;
+
+  VertexPlaces vertex_places(const PlyElement& element) {
+    using Names = std::initializer_list<std::string_view>;
+    const std::array<Names, 8> names = {Names{"x"},
+                                        Names{"y"},
+                                        Names{"z"},
+                                        Names{"nx"},
+                                        Names{"ny"},
+                                        Names{"nz"},
+                                        Names{"u", "s", "texture_u"},
+                                        Names{"v", "t", "texture_v"}};
+    VertexPlaces places;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      places[i] = find_property(element, names[i]);
+      if (places[i] && element.properties[*places[i]].count_type) places[i].reset();
     }
+    for (std::size_t axis = 0; axis < first_of_normal; ++axis) {
+      if (!places[axis]) {
+        throw RefusedMesh(
+            fmt::format("its vertices have no property {}", in_quotes(*names[axis].begin())));
+      }
+    }
+    const auto has_all = [&](std::size_t begin, std::size_t end) {
+      return std::all_of(&places[begin], &places[0] + end, [](auto place) { return !!place; });
+    };
+    has_normals_ = has_all(first_of_normal, first_of_uv);
+    has_uv_ = has_all(first_of_uv, places.size());
+    if (!has_normals_)
+      std::fill_n(&places[first_of_normal], first_of_uv - first_of_normal, std::nullopt);
+    if (!has_uv_) std::fill_n(&places[first_of_uv], places.size() - first_of_uv, std::nullopt);
+    return places;
+  }
+
+  void read_vertices(const PlyElement& element) {
+    const VertexPlaces places = vertex_places(element);
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      Vec3 position{};
+      std::array<double, 8> values{};
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const auto* const place = std::find(places.begin(), places.end(), i);
         if (place == places.end()) {
           skip_property(element.properties[i]);
-        } else {
-          position[static_cast<int>(place - places.begin())] = coordinate(element.properties[i]);
+          continue;
         }
+        const auto slot = static_cast<std::size_t>(place - places.begin());
+        values[slot] = slot < first_of_normal ? coordinate(element.properties[i])
+                                              : attribute(element.properties[i], slot);
       }
-      mesh_.add_position(position);
+      const auto& [x, y, z, nx, ny, nz, u, v] = values;
+      mesh_.add_position({x, y, z});
+      if (has_normals_) mesh_.add_normal({nx, ny, nz});
+      if (has_uv_) mesh_.add_uv(u, v);
     }
+    // There may be more vertices, in another table.
+    has_normals_ = mesh_.normal_count() == mesh_.position_count();
+    has_uv_ = mesh_.uv_count() == mesh_.position_count();
+  }
+
+  double attribute(const PlyProperty& property, std::size_t slot) {
+    const double value = rows_.next(property.type);
+    const double most = slot < first_of_uv ? largest_normal : largest_uv;
+    if (!(std::abs(value) <= most)) {
+      rows_.refuse(fmt::format("{} of a vertex is {}; it should be at most {:g} in magnitude",
+                               property.name, value, most));
+    }
+    return value;
   }
 
   double coordinate(const PlyProperty& property) {
@@ -238,12 +286,17 @@ class PlyReader {
       }
       corners_.push_back(static_cast<std::uint32_t>(index));
     }
-    mesh_.add_face(corners_);
+    FaceCorners face{.positions = corners_};
+    if (has_normals_) face.normals = corners_;
+    if (has_uv_) face.uv = corners_;
+    mesh_.add_face(face);
   }
 
   Rows rows_;
   MeshBuilder& mesh_;
   std::vector<std::uint32_t> corners_;
+  bool has_normals_ = false;
+  bool has_uv_ = false;
 };
 
 }  // namespace

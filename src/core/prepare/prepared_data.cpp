@@ -57,7 +57,9 @@ Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial>
   for (const SceneObject& object : scene.objects) {
     const std::span<const Leaf> leaves = scene.leaves_of(object);
     opacity.of_objects.push_back(std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
-      return opacity.of_materials[leaf.material];
+      const auto first = opacity.of_materials.begin() + leaf.material;
+      return std::find(first, first + leaf.material_count(), false) ==
+             first + leaf.material_count();
     }));
   }
   return opacity;
@@ -240,7 +242,7 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
   point.normal = leaf.placement->normal_to_world(point.object_normal);
   point.u = surface.u;
   point.v = surface.v;
-  point.material = leaf.material;
+  point.material = leaf.material_of(hit.face);
   point.entity_id = leaf.entity_id;
   point.object = hit.object;
   point.leaf = hit.leaf;

@@ -154,7 +154,9 @@ class PreparedData {
   }
 
   /// Returns the material of a hit, without the rest.
-  std::uint32_t hit_material(const RayHit& hit) const { return leaves_[hit.leaf].material; }
+  std::uint32_t hit_material(const RayHit& hit) const {
+    return leaves_[hit.leaf].material_of(hit.face);
+  }
 
   /// Returns the user's number of the entity that was hit.
   std::uint32_t entity_id(const RayHit& hit) const { return entity_ids_[hit.leaf]; }

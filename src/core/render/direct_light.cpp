@@ -34,6 +34,31 @@ void start_at(const Surfaces& surfaces, RayBatch& batch) {
   });
 }
 
+/// Lets the light on smooth surfaces fade to nothing before facets turn away from it, which would
+/// be black beside bright ones. That begins at twice the horizon of the normal, and ends there: it
+/// has no jump between facets. But where corners' normals are far from the facets', the facet's own
+/// normal says how much light is left.
+///
+/// Source of the latter: Chiang, Li, Burley, Taming the shadow terminator, SIGGRAPH 2019 talks.
+void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, VectorLanes& light) {
+  constexpr double near_horizon = 0.5;
+  constexpr double far_horizon = 0.7;
+  const Lanes one = lanes_of(1);
+  const VectorLanes& normal = group.phong.normal;
+  const Lanes cosine = dot(normal, to_light);
+  const Lanes above = max(Lanes{}, cosine - group.horizons);
+  const Lanes risen = select(above < group.horizons, above / group.horizons, one);
+  const Lanes by_horizon = risen * (2.0 - risen);
+  const Lanes g =
+      min(dot(group.face_normal, to_light) / (cosine * dot(normal, group.face_normal)), one);
+  const Lanes by_facet = g * (1.0 + g * (1.0 - g));
+  const Lanes far =
+      clamp((group.horizons - near_horizon) / (far_horizon - near_horizon), Lanes{}, one);
+  const Lanes share = select(far > 0.0, by_horizon + far * (by_facet - by_horizon), by_horizon);
+  const LaneMask fades = lanes_with(group.smooth) & (cosine > 0.0);
+  light = select(fades, max(Lanes{}, share) * light, light);
+}
+
 /// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
 RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
                ShadowRays& rays) {
@@ -45,6 +70,7 @@ RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask so
     lit &= source.sample(group.position, group.path_length, samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
     direct_light(group.phong, samples, source.color(), lit, rays.light[i]);
+    if (group.smooth != 0) soften_terminator(group, samples.directions, rays.light[i]);
     lit &= !is_black(rays.light[i]);
     aimed |= mask_of(lit) << (i * lane_count);
     rays.batch.lines[i] = {group.position, samples.directions};

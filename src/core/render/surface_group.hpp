@@ -16,7 +16,9 @@ struct SurfaceGroup {
   VectorLanes position;
   Lanes start_errors{};     ///< StartPoint::t_error of rays that start there
   VectorLanes face_normal;  ///< of the geometry, turned to the viewer
-  PhongSurfaces phong;      ///< its normal is that tilted by bumps
+  PhongSurfaces phong;      ///< its normal is that of shading, also tilted by bumps
+  RayMask smooth = 0;       ///< those whose facets have normals for shading
+  Lanes horizons{};         ///< ShadingNormal::horizon of these
   Lanes reflectivity{};     ///< of the materials
   Lanes transparency{};
   RayMask sending_on = 0;  ///< those whose materials do not end paths

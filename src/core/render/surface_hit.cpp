@@ -3,6 +3,7 @@
 #include <bit>
 #include <numbers>
 
+#include "core/geometry/mesh/mesh.hpp"
 #include "core/math/power.hpp"
 #include "core/render/hit_faces.hpp"
 #include "core/shading/bump.hpp"
@@ -20,16 +21,23 @@ ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointL
   return material.pattern->colors(points, alike);
 }
 
-/// Returns the outward normal in the world of a point in object space, tilted by the material's
-/// bumps.
+/// Returns the outward normal for shading of a point, both in object space.
+ShadingNormal shading_normal(const Leaf& leaf, std::uint32_t face, const SurfacePoint& point) {
+  if (!leaf.has_normals) return {point.normal};
+  const MeshShape& mesh = static_cast<const MeshShape&>(*leaf.shape);
+  return mesh.shading_normal(face, point.position, point.normal);
+}
+
+/// Returns a normal for shading in the world, tilted by the material's bumps. `normal` and the
+/// point are in object space.
 Vec3 bumped_normal(const Leaf& leaf, std::uint32_t face, const PreparedMaterial& material,
-                   const SurfacePoint& point, Workspace& work) {
+                   const SurfacePoint& point, const Vec3& normal, Workspace& work) {
   const LuminanceGradient luminance =
       luminance_gradient(*material.bump, point, *leaf.shape, face, work.scratch);
   work.stats.pattern_lookups += static_cast<std::uint64_t>(luminance.lookups);
   const Vec3 height_gradient =
       material.description->bump_height * leaf.placement->covector_to_world(luminance.gradient);
-  return tilted_normal(leaf.placement->normal_to_world(point.normal), height_gradient);
+  return tilted_normal(leaf.placement->normal_to_world(normal), height_gradient);
 }
 
 /// AlikeHits are rays of a group that hit one face, or spheres of one material, from the same side.
@@ -58,16 +66,21 @@ void set_material(const AlikeHits& alike, const VectorLanes& color, const Lanes&
   if (!alike.material.ends_paths) group.sending_on |= alike.rays;
 }
 
-/// Sets the normals of bumped surfaces, seen along the rays' directions. The points are in object
-/// space.
-void set_bumped_normals(const PreparedData& data, const AlikeHits& alike,
-                        const SurfacePointLanes& points, SurfaceGroup& group, Workspace& work) {
+/// Sets the normals of surfaces that are bumped or have normals for shading, seen along the rays'
+/// directions. The points are in object space.
+void set_shading_normals(const PreparedData& data, const AlikeHits& alike,
+                         const SurfacePointLanes& points, SurfaceGroup& group, Workspace& work) {
   const double to_viewer = alike.first.entering ? 1 : -1;
   for_each_ray(alike.rays, [&](std::size_t lane) {
     const RayHit& hit = alike.hits[lane];
-    const Vec3 normal = to_viewer * bumped_normal(data.leaf(hit), hit.face, alike.material,
-                                                  lane_of(points, lane), work);
-    group.phong.normal.set(lane, visible_normal(normal, group.phong.view.lane(lane)));
+    const Leaf& leaf = data.leaf(hit);
+    const SurfacePoint point = lane_of(points, lane);
+    const auto [plain, horizon] = shading_normal(leaf, hit.face, point);
+    group.horizons[lane] = horizon;
+    const Vec3 normal = alike.material.bump
+                            ? bumped_normal(leaf, hit.face, alike.material, point, plain, work)
+                            : leaf.placement->normal_to_world(plain);
+    group.phong.normal.set(lane, visible_normal(to_viewer * normal, group.phong.view.lane(lane)));
   });
 }
 
@@ -79,6 +92,7 @@ void look_up(const PreparedData& data, const RayLanes& rays,
   const Lanes t = lanes_of(hits[0].t, hits[1].t, hits[2].t, hits[3].t);
   group.phong.view = rays.direction;
   group.sending_on = 0;
+  group.smooth = 0;
   const HitFaces faces(data, hits);
   SurfacePointLanes& points = work.points;
   for (RayMask to_come = seen; to_come != 0;) {
@@ -98,11 +112,14 @@ void look_up(const PreparedData& data, const RayLanes& rays,
     const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
     set_material(alike, colors.color, transparency, group);
-    if (material.bump) set_bumped_normals(data, alike, points, group, work);
+    const bool is_smooth = data.leaf(first).has_normals;
+    const bool has_own_normals = is_smooth || material.bump;
+    if (is_smooth) group.smooth |= alike.rays;
+    if (has_own_normals) set_shading_normals(data, alike, points, group, work);
     data.take_to_world(first, points);
     alike.set(group.position, points.position);
     alike.set(group.face_normal, first.entering ? points.normal : -points.normal);
-    if (!material.bump) alike.set(group.phong.normal, group.face_normal);
+    if (!has_own_normals) alike.set(group.phong.normal, group.face_normal);
   }
   group.start_errors = start_rounding * largest_component(rays.at(t));
 }

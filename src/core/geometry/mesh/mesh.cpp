@@ -37,11 +37,25 @@ bool MeshShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return standard_crossings(*triangles_, ray, out);
 }
 
+ShadingNormal MeshShape::shading_normal(std::uint32_t face, const Vec3& position,
+                                        const Vec3& normal) const {
+  const Triangle triangle = triangles_->triangle(face);
+  double u = 0;
+  double v = 0;
+  write_weights(triangle, position - triangle.a, u, v);
+  return facet_attributes()->normal(face, u, v, normal);
+}
+
 Surface MeshShape::surface(std::uint32_t face) const {
   const MeshTriangles::PlaneOf plane = triangles_->plane_of(face);
   Surface surface = facet(plane.first).surface(0);
   if (plane.turned) surface.direction = -surface.direction;
   return surface;
+}
+
+const FacetAttributes* facet_attributes(const Primitive& primitive) {
+  const auto* mesh = std::get_if<Mesh>(&primitive);
+  return mesh == nullptr ? nullptr : mesh->triangles->attributes();
 }
 
 void validate(const Mesh& mesh) {

@@ -4,13 +4,14 @@
 // crossings of a closed mesh are always even in number. Where it crosses them is as for a single
 // triangle. Triangles of one plane are crossed at the same t, to the last bit.
 //
-// Face i is triangle i, of those that have an area. (u, v) are the weights of its second and third
-// corner.
+// Face i is triangle i, of those that have an area. (u, v) are those of its corners, if these have
+// any, or else the weights of its second and third corner.
 // Tests: tests/geometry/mesh_test.cpp
 #pragma once
 
 #include <memory>
 
+#include "core/geometry/mesh/facet_attributes.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/triangle/triangle.hpp"
@@ -20,7 +21,8 @@ namespace crt::core {
 class MeshShape final : public Shape {
  public:
   explicit MeshShape(std::shared_ptr<const MeshTriangles> triangles)
-      : triangles_(std::move(triangles)) {}
+      : triangles_(std::move(triangles)),
+        has_uv_(facet_attributes() != nullptr && facet_attributes()->has_uv()) {}
 
   bool is_solid() const override { return triangles_->is_closed(); }
   bool is_convex() const override { return false; }
@@ -30,14 +32,21 @@ class MeshShape final : public Shape {
   Vec3 anchor(std::uint32_t face) const override { return triangles_->triangle(face).a; }
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
                         bool with_uv) const override {
-    return facet(face).point_on(offset, direction, 0, with_uv);
+    SurfacePoint point = facet(face).point_on(offset, direction, 0, with_uv);
+    if (with_uv && has_uv_) facet_attributes()->weights_to_uv(face, point.u, point.v);
+    return point;
   }
   void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
                  bool with_uv, SurfacePointLanes& points) const override {
     facet(face).points_on(offsets, directions, 0, with_uv, points);
+    if (with_uv && has_uv_) facet_attributes()->weights_to_uv(face, points.u, points.v);
   }
+  /// Returns the normal for shading at a point of a facet with normals. `normal` is the facet's, of
+  /// either sign, and the result is on that side.
+  ShadingNormal shading_normal(std::uint32_t face, const Vec3& position, const Vec3& normal) const;
   std::uint32_t face_count() const override { return triangles_->size(); }
   Surface surface(std::uint32_t face) const override;
+  const FacetAttributes* facet_attributes() const override { return triangles_->attributes(); }
   /// Returns only its own bytes and those of the triangles, which others may share.
   std::size_t bytes() const override { return sizeof *this + triangles_->bytes(); }
 
@@ -47,7 +56,11 @@ class MeshShape final : public Shape {
   }
 
   std::shared_ptr<const MeshTriangles> triangles_;
+  bool has_uv_;
 };
+
+/// Returns what the facets of a primitive have beyond what rays meet, or null.
+const FacetAttributes* facet_attributes(const Primitive& primitive);
 
 void validate(const Mesh& mesh);
 bool is_solid(const Mesh& mesh);

@@ -10,6 +10,7 @@
 #include "core/geometry/checks.hpp"
 #include "core/geometry/exact_plane.hpp"
 #include "core/geometry/mesh/equal_positions.hpp"
+#include "core/geometry/mesh/facet_attributes.hpp"
 #include "core/geometry/triangle/triangle.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
@@ -101,14 +102,16 @@ bool is_in_plane(const Triangle& triangle, const Triangle& of_plane) {
 }  // namespace
 
 MeshTriangles::MeshTriangles(std::span<const Vec3> positions,
-                             std::span<const TriangleIndices> triangles) {
+                             std::span<const TriangleIndices> triangles,
+                             const MeshAttributes* attributes) {
   for (const Vec3& position : positions) check_coordinates("positions", position);
   check_indices(triangles, positions.size());
+  if (attributes != nullptr) check_attributes(*attributes, positions.size(), triangles.size());
   positions_.assign(positions.begin(), positions.end());
   std::vector<TriangleIndices> welded(triangles.begin(), triangles.end());
-  weld(welded);
+  std::vector<std::uint32_t> given = weld(welded);
   std::vector<EdgePair> pairs = find_open_edges(welded);
-  drop_flat(welded, pairs);
+  drop_flat(welded, pairs, given);
   if (placed_.empty()) {
     reject_mesh("a mesh needs at least one triangle that has an area", "triangles");
   }
@@ -119,40 +122,55 @@ MeshTriangles::MeshTriangles(std::span<const Vec3> positions,
     constexpr double diagonal = 1.75;  // that of a cube, and a little more
     longest_edge_ = std::max(longest_edge_, diagonal * largest_component(box.upper - box.lower));
   }
-  if (is_closed() && oriented_) turn_outwards();
+  const bool turned = is_closed() && oriented_ && turn_outwards();
   find_planes();
   build_tree();
   if (is_closed() && oriented_) find_facing(pairs);
+  if (attributes == nullptr) return;
+  attributes_ = std::make_unique<const FacetAttributes>(
+      *attributes, GivenFacets{triangles, given, turned}, *this, pairs);
+  if (attributes_->empty()) attributes_.reset();
 }
 
-/// Takes those triangles that have an area, and drops the pairs of others.
+MeshTriangles::~MeshTriangles() = default;
+
+/// Takes those triangles that have an area, and drops the pairs of others. `given` has what number
+/// each was given with, and then has it of each that was taken.
 void MeshTriangles::drop_flat(std::span<const TriangleIndices> triangles,
-                              std::vector<EdgePair>& pairs) {
+                              std::vector<EdgePair>& pairs, std::vector<std::uint32_t>& given) {
   constexpr std::uint32_t dropped = 0xffffffffu;
   std::vector<std::uint32_t> numbers(triangles.size(), dropped);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto [a, b, c] = triangles[i];
     if (!has_area({.a = positions_[a], .b = positions_[b], .c = positions_[c]})) continue;
     numbers[i] = size();
+    given[size()] = given[i];
     places_.push_back(size());
     placed_.push_back({.corners = triangles[i], .number = size(), .plane = {}});
   }
+  given.resize(size());
   for (EdgePair& pair : pairs) pair = {numbers[pair.one], numbers[pair.other]};
   std::erase_if(pairs,
                 [](const EdgePair& pair) { return pair.one == dropped || pair.other == dropped; });
 }
 
 /// Makes equal corners one, and drops triangles of which two corners are one. What these had for
-/// edges are two uses of one edge, and one of no length.
-void MeshTriangles::weld(std::vector<TriangleIndices>& triangles) {
+/// edges are two uses of one edge, and one of no length. Returns the numbers of those that are
+/// left.
+std::vector<std::uint32_t> MeshTriangles::weld(std::vector<TriangleIndices>& triangles) {
   const std::vector<std::uint32_t> first = first_equal(positions_);
-  for (TriangleIndices& indices : triangles) {
+  std::vector<std::uint32_t> left;
+  left.reserve(triangles.size());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    TriangleIndices indices = triangles[i];
     for (std::uint32_t& index : indices) index = first[index];
-  }
-  std::erase_if(triangles, [](const TriangleIndices& indices) {
     const auto [a, b, c] = indices;
-    return a == b || b == c || c == a;
-  });
+    if (a == b || b == c || c == a) continue;
+    triangles[left.size()] = indices;
+    left.push_back(i);
+  }
+  triangles.resize(left.size());
+  return left;
 }
 
 /// Returns the pairs of triangles that alone have an edge.
@@ -193,8 +211,8 @@ std::vector<EdgePair> MeshTriangles::find_open_edges(std::span<const TriangleInd
   return pairs;
 }
 
-/// Turns all triangles round if their normals point into the solid.
-void MeshTriangles::turn_outwards() {
+/// Turns all triangles round if their normals point into the solid. Returns whether it did.
+bool MeshTriangles::turn_outwards() {
   const Vec3 middle = 0.5 * bounds_.lower + 0.5 * bounds_.upper;
   const double extent = power_of_two_below(largest_component(bounds_.upper - bounds_.lower));
   double volume = 0;
@@ -203,8 +221,9 @@ void MeshTriangles::turn_outwards() {
     const auto relative = [&](const Vec3& corner) { return (corner - middle) / extent; };
     volume += glm::dot(relative(corners.a), glm::cross(relative(corners.b), relative(corners.c)));
   }
-  if (volume >= 0) return;
+  if (volume >= 0) return false;
   for (Placed& placed : placed_) std::swap(placed.corners[1], placed.corners[2]);
+  return true;
 }
 
 void MeshTriangles::find_planes() {
@@ -287,7 +306,8 @@ TriangleLanes MeshTriangles::placed_corners(std::uint32_t first, std::uint32_t c
 
 std::size_t MeshTriangles::bytes() const {
   return sizeof *this + positions_.capacity() * sizeof(Vec3) + placed_.capacity() * sizeof(Placed) +
-         places_.capacity() * sizeof(std::uint32_t) + tree_.bytes();
+         places_.capacity() * sizeof(std::uint32_t) + tree_.bytes() +
+         (attributes_ ? attributes_->bytes() : 0);
 }
 
 }  // namespace crt

@@ -22,16 +22,32 @@
 
 namespace crt {
 
+struct MeshAttributes;
+
+namespace core {
+class FacetAttributes;
+}
+
 class MeshTriangles {
  public:
-  /// Throws Error (invalid_argument) for coordinates and indices out of range, and if no triangle
-  /// has an area.
-  MeshTriangles(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles);
+  /// Throws Error (invalid_argument) for coordinates, indices and attributes out of range, and if
+  /// no triangle has an area.
+  MeshTriangles(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles,
+                const MeshAttributes* attributes = nullptr);
+  ~MeshTriangles();
+  MeshTriangles(const MeshTriangles&) = delete;
+  MeshTriangles& operator=(const MeshTriangles&) = delete;
 
   /// Returns the number of triangles that have an area. They are numbered in the order in which
   /// they were given.
   std::uint32_t size() const { return static_cast<std::uint32_t>(placed_.size()); }
   Triangle triangle(std::uint32_t number) const { return corners_of(placed_[places_[number]]); }
+  /// Returns the corners of a triangle: equal numbers for equal corners.
+  const TriangleIndices& corners(std::uint32_t number) const {
+    return placed_[places_[number]].corners;
+  }
+  /// Returns what the triangles have beyond their corners, or null.
+  const core::FacetAttributes* attributes() const { return attributes_.get(); }
 
   /// A PlaneOf says in which plane a triangle lies: in that of `first`, the first triangle in it.
   struct PlaneOf {
@@ -73,10 +89,11 @@ class MeshTriangles {
   std::size_t bytes() const;
 
  private:
-  void weld(std::vector<TriangleIndices>& triangles);
+  std::vector<std::uint32_t> weld(std::vector<TriangleIndices>& triangles);
   std::vector<core::EdgePair> find_open_edges(std::span<const TriangleIndices> triangles);
-  void drop_flat(std::span<const TriangleIndices> triangles, std::vector<core::EdgePair>& pairs);
-  void turn_outwards();
+  void drop_flat(std::span<const TriangleIndices> triangles, std::vector<core::EdgePair>& pairs,
+                 std::vector<std::uint32_t>& given);
+  bool turn_outwards();
   void find_planes();
   void build_tree();
   void sort_along_tree(std::span<const std::uint32_t> order);
@@ -90,6 +107,7 @@ class MeshTriangles {
   core::Bounds bounds_;
   double longest_edge_ = 0;
   core::CompactBvh tree_;
+  std::unique_ptr<const core::FacetAttributes> attributes_;
 };
 
 }  // namespace crt

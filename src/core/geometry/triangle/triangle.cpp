@@ -135,6 +135,33 @@ bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
+void write_weights(const Triangle& triangle, const Vec3Of<Real>& relative, Real& u, Real& v) {
+  using Vector = Vec3Of<Real>;
+  const Vec3 ab = triangle.b - triangle.a;
+  const Vec3 ac = triangle.c - triangle.a;
+  const double scale = inverse_length_scale(ab);
+  const double scale_c = inverse_length_scale(ac);
+  const Vec3 area = accurate_cross(ab * scale, ac * scale_c);
+  const double squared_area = glm::dot(area, area);
+  if (!(squared_area > 0)) {
+    u = v = Real{};
+    return;
+  }
+  const Vector across = broadcast<Real>(area);
+  const Vector scaled = broadcast<Real>(scale) * relative;
+  const Real of_b =
+      dot(accurate_cross(scaled, broadcast<Real>(ac * scale_c)), across) / squared_area;
+  const Real of_c =
+      dot(accurate_cross(broadcast<Real>(ab * scale), broadcast<Real>(scale_c) * relative),
+          across) /
+      squared_area;
+  u = clamp(of_b, Real{}, broadcast<Real>(1));
+  v = clamp(of_c, Real{}, 1 - u);
+}
+
+template void write_weights<double>(const Triangle&, const Vec3&, double&, double&);
+
+template <class Real>
 void TriangleShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
                                 bool with_uv, SurfacePointOf<Real>& point) const {
   using Vector = Vec3Of<Real>;
@@ -142,26 +169,9 @@ void TriangleShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
   face_.write_point(relative, point);
   const Bounds box = bounds();
   point.position = clamp(point.position, broadcast<Real>(box.lower), broadcast<Real>(box.upper));
-  if (!with_uv) return;
-  const Vec3 ab = corners_[1] - corners_[0];
-  const Vec3 ac = corners_[2] - corners_[0];
-  const double scale = inverse_length_scale(ab);
-  const double scale_c = inverse_length_scale(ac);
-  const Vec3 area = accurate_cross(ab * scale, ac * scale_c);
-  const double squared_area = glm::dot(area, area);
-  if (!(squared_area > 0)) {
-    point.u = point.v = Real{};
-    return;
-  }
-  const Vector across = broadcast<Real>(area);
-  const Vector scaled = broadcast<Real>(scale) * relative;
-  const Real u = dot(accurate_cross(scaled, broadcast<Real>(ac * scale_c)), across) / squared_area;
-  const Real v =
-      dot(accurate_cross(broadcast<Real>(ab * scale), broadcast<Real>(scale_c) * relative),
-          across) /
-      squared_area;
-  point.u = clamp(u, Real{}, broadcast<Real>(1));
-  point.v = clamp(v, Real{}, 1 - point.u);
+  if (with_uv)
+    write_weights({.a = corners_[0], .b = corners_[1], .c = corners_[2]}, relative, point.u,
+                  point.v);
 }
 
 // Meshes ask for points of triangles, too.

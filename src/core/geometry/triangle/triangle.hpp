@@ -51,6 +51,11 @@ class TriangleShape final : public ShapeOfPoints<TriangleShape> {
 /// is 0 only for corners on one line.
 PreciseVec3 precise_normal_of(const Triangle& triangle);
 
+/// Writes the weights of b and c at a point of the triangle's plane, which is relative to a. They
+/// are at least 0, and their sum is at most 1.
+template <class Real>
+void write_weights(const Triangle& triangle, const Vec3Of<Real>& relative, Real& u, Real& v);
+
 /// Returns whether the corners are not on one line.
 bool has_area(const Triangle& triangle);
 

@@ -1,0 +1,144 @@
+"""Meshes are made of triangles that a program has, or that are in a file."""
+
+import ctypes
+import os
+from collections.abc import Sequence
+from typing import Any, SupportsFloat, SupportsIndex
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arguments
+from ._library import create
+from ._structs import Struct, growable, reference
+from .entities import Entity
+from .primitives import _Primitive
+from .values import Material
+
+__all__ = ["Mesh", "load_mesh"]
+
+
+def load_mesh(
+    path: str | os.PathLike[str],
+    *,
+    smooth: SupportsFloat | None = None,
+    material: Material | None = None,
+    id: int | None = None,
+) -> Entity:
+    """Returns the entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is,
+    or else the name. `smooth` is that of Mesh, and without it the file's normals count. `material`
+    takes the place of the file's. A broken file is a crt.Error with its line or byte."""
+    angle = -1 if smooth is None else _angle(smooth, "load_mesh: smooth")
+    place = _arguments.text(path, "load_mesh: path")
+    entity = Entity._adopt(create("crt_mesh_load_smooth", place, None, angle))
+    if material is not None:
+        entity = entity.with_material(material)
+    return entity if id is None else entity.with_id(id)
+
+
+@growable("crt_mesh")
+class _MeshStruct(Struct):
+    """A _MeshStruct has the addresses of arrays, which it keeps."""
+
+    def put(self, field: str, count: str | None, values: Any) -> None:
+        """Sets a field to an array, and another one to its length."""
+        address = values.ctypes.data if isinstance(values, np.ndarray) else ctypes.addressof(values)
+        ctypes.Structure.__setattr__(self, field, address)
+        if count is not None:
+            ctypes.Structure.__setattr__(self, count, len(values))
+        self._kept[f"_{field}"] = values
+
+
+class Mesh(_Primitive):
+    """A Mesh is made of triangles: n x 3 positions, and m x 3 indices into them. It is a solid if
+    each edge belongs to an even number of triangles, and else a surface.
+
+    `normals` (k x 3, for shading) and `uv` (k x 2) are one for each position, or are named for the
+    corners of each triangle by `normal_indices` and `uv_indices` (m x 3). With `smooth`, an angle
+    in radians, normals are computed instead, across edges of triangles that are at most that far
+    apart. `material_of_triangle` (m) names one of the `materials` for each triangle; without it all
+    have the first. `material` takes the place of all of them. Where these lists of indices have
+    0xffffffff there is none."""
+
+    def __init__(
+        self,
+        positions: ArrayLike,
+        indices: ArrayLike,
+        *,
+        normals: ArrayLike | None = None,
+        normal_indices: ArrayLike | None = None,
+        uv: ArrayLike | None = None,
+        uv_indices: ArrayLike | None = None,
+        materials: Sequence[Material] = (),
+        material_of_triangle: ArrayLike | None = None,
+        smooth: SupportsFloat | None = None,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        mesh = _MeshStruct()
+        points = _numbers(positions, 3, "positions")
+        corners = _whole_numbers(indices, 3, "indices")
+        if (corners >= len(points)).any():
+            raise ValueError(
+                "Mesh: indices must be whole numbers below the number of positions,"
+                f" which is {len(points)}"
+            )
+        mesh.put("positions", "vertex_count", points)
+        mesh.put("indices", "triangle_count", corners)
+        if normals is not None:
+            mesh.put("normals", "normal_count", _numbers(normals, 3, "normals"))
+        if uv is not None:
+            mesh.put("uv", "uv_count", _numbers(uv, 2, "uv"))
+        for name, width, given in (
+            ("normal_indices", 3, normal_indices),
+            ("uv_indices", 3, uv_indices),
+            ("material_of_triangle", None, material_of_triangle),
+        ):
+            if given is not None:
+                numbers = _whole_numbers(given, width, name)
+                if len(numbers) != len(corners):
+                    raise ValueError(f"Mesh: {name} must have {len(corners)} rows, as indices has")
+                mesh.put(name, None, numbers)
+        _put_materials(mesh, materials)
+        if smooth is not None:
+            mesh.smooth = _angle(smooth, "Mesh: smooth")
+        shown = {"positions": f"<{len(points)} x 3>", "indices": f"<{len(corners)} x 3>"}
+        self._create("crt_mesh_create_with", material, id, shown, ctypes.byref(mesh))
+
+
+def _angle(value: SupportsFloat, name: str) -> float:
+    angle = _arguments.number(value, name)
+    if not 0 <= angle <= np.pi:
+        raise ValueError(f"{name} must be an angle from 0 to pi, not {angle}")
+    return angle
+
+
+def _put_materials(mesh: _MeshStruct, materials: Sequence[Material]) -> None:
+    if not materials:
+        return
+    for i, material in enumerate(materials):
+        reference(material, "crt_material", f"Mesh: materials[{i}]")
+    addresses = (ctypes.c_void_p * len(materials))(*map(ctypes.addressof, materials))
+    mesh.put("materials", "material_count", addresses)
+    mesh._kept["_owners"] = tuple(materials)
+
+
+def _numbers(given: ArrayLike, width: int, name: str) -> NDArray[np.float64]:
+    try:
+        numbers = np.ascontiguousarray(given, np.float64)
+    except (TypeError, ValueError):
+        raise _arguments.refusal(f"Mesh: {name}", f"n x {width} numbers", given) from None
+    if numbers.ndim != 2 or numbers.shape[1] != width:
+        raise ValueError(f"Mesh: {name} must be n x {width} numbers, not {numbers.shape}")
+    return numbers
+
+
+def _whole_numbers(given: ArrayLike, width: int | None, name: str) -> NDArray[np.uint32]:
+    """Returns m x width indices, or m of them without a width."""
+    numbers = np.asarray(given)
+    if numbers.ndim != (1 if width is None else 2) or (width and numbers.shape[1] != width):
+        shape = "m" if width is None else f"m x {width}"
+        raise ValueError(f"Mesh: {name} must be {shape} whole numbers, not {numbers.shape}")
+    if numbers.dtype.kind not in "iu" or (numbers < 0).any() or (numbers > 0xFFFFFFFF).any():
+        raise ValueError(f"Mesh: {name} must be whole numbers from 0 to 4294967295")
+    return np.ascontiguousarray(numbers, np.uint32)
