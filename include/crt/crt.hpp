@@ -4,6 +4,7 @@
 #include <crt/background.hpp>
 #include <crt/camera.hpp>
 #include <crt/color.hpp>
+#include <crt/curves.hpp>
 #include <crt/entity.hpp>
 #include <crt/error.hpp>
 #include <crt/file.hpp>
