@@ -21,6 +21,7 @@
 #include <crt/scene.hpp>
 #include <crt/settings.hpp>
 #include <crt/stats.hpp>
+#include <crt/svg_path.hpp>
 #include <crt/transform.hpp>
 #include <crt/validate.hpp>
 #include <crt/vec.hpp>

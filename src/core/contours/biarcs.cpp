@@ -9,8 +9,6 @@ namespace crt::core {
 
 namespace {
 
-/// Such a bulge is near the flattest of which a profile can say the circle.
-constexpr double least_bulge = 0x1p-22;
 /// An arc may turn by so much that the curve beside it is well away from its center.
 constexpr double largest_bulge = 0.5;
 
@@ -122,8 +120,7 @@ double parameter_of_join(const Cubic& curve, const Biarc& biarc) {
 
 /// Makes an arc straight that is too flat for its circle.
 void flatten(ArcTo& arc, const Vec2& from, double least_rise) {
-  const double size = std::abs(arc.bulge);
-  if (size < least_bulge || 0.5 * size * glm::length(arc.end - from) < least_rise) arc.bulge = 0;
+  arc.bulge = bulge_with_circle(arc.bulge, glm::length(arc.end - from), least_rise);
 }
 
 /// Returns whether a curve is so small that a straight line does for it.
@@ -134,6 +131,12 @@ bool is_small(const Cubic& curve, double deviation) {
 }
 
 }  // namespace
+
+double bulge_with_circle(double bulge, double chord, double least_rise) {
+  constexpr double least_bulge = 0x1p-22;
+  const double size = std::abs(bulge);
+  return size < least_bulge || 0.5 * size * chord < least_rise ? 0 : bulge;
+}
 
 void append_biarcs(const Cubic& curve, const Fit& fit, std::vector<ArcTo>& arcs) {
   // A bend that this much of the deviation hides is no edge.

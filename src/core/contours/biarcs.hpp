@@ -25,6 +25,12 @@ struct ArcTo {
   double bulge = 0;
 };
 
+/// Returns the bulge of an arc, or 0 if the arc is so flat that doubles may not say its circle.
+double bulge_with_circle(double bulge, double chord, double least_rise);
+
+/// Rounding hides what rises less than this share of the coordinates above its chord.
+inline constexpr double least_share_of_rise = 0x1p-46;
+
 /// A Fit says how close arcs must be to a curve of a size of about 1.
 struct Fit {
   double deviation = 0;

@@ -7,15 +7,14 @@
 #include <cmath>
 #include <vector>
 
+#include "core/contours/append.hpp"
 #include "core/contours/biarcs.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
 
 namespace crt {
 
-using namespace core;
-
-namespace {
+namespace core {
 
 void check_point(const CurvePoint& point, const char* name) {
   constexpr double largest = 1e100;
@@ -30,7 +29,6 @@ void check_point(const CurvePoint& point, const char* name) {
   }
 }
 
-/// Returns the deviation for a curve of that size and of coordinates as large as that.
 double checked_deviation(double deviation, double size, double magnitude) {
   constexpr double usual_share = 1e-4;
   constexpr double least_share = 0x1p-32;
@@ -55,7 +53,9 @@ void append_corner(Contour& contour, const ProfilePoint& corner) {
   }
 }
 
-}  // namespace
+}  // namespace core
+
+using namespace core;
 
 void append_cubic(Contour& contour, const CurvePoint& control1, const CurvePoint& control2,
                   const CurvePoint& end, double deviation) {
@@ -87,10 +87,9 @@ void append_cubic(Contour& contour, const CurvePoint& control1, const CurvePoint
   };
   constexpr double rounding_of_corners = 0x1p-50;  // of the curve's points, too
   constexpr double rounding_of_bounds = 0x1p-14;
-  constexpr double least_rise = 0x1p-46;
   const Fit fit{
       .deviation = (within - rounding_of_corners * magnitude) / unit * (1 - rounding_of_bounds),
-      .least_rise = least_rise * (magnitude / unit)};
+      .least_rise = least_share_of_rise * (magnitude / unit)};
   std::vector<ArcTo> arcs;
   append_biarcs({Vec2(0, 0), moved(control1), moved(control2), moved(end)}, fit, arcs);
   for (const ArcTo& arc : arcs) {
