@@ -590,6 +590,51 @@ CRT_API crt_status crt_profile_line_to(crt_profile* profile, double x, double y)
  */
 CRT_API crt_status crt_profile_arc_to(crt_profile* profile, double x, double y, double bulge);
 /**
+ * Adds a cubic Bezier curve from the last corner to (x, y), with the control points (x1, y1) and
+ * (x2, y2). It becomes arcs of circles that continue one another's directions.
+ * @param deviation  how far the arcs and the curve may be away from each other; 0 for a 10000th of
+ *                   the larger side of the box around the four points, or 2^-44 of their largest
+ *                   coordinate if that is more. It is an error if it is below 2^-32 of that side,
+ *                   or below 2^-44 of that coordinate.
+ */
+CRT_API crt_status crt_profile_cubic_to(crt_profile* profile, double x1, double y1, double x2,
+                                        double y2, double x, double y, double deviation);
+/** Adds a quadratic Bezier curve with the control point (x1, y1), as crt_profile_cubic_to(). */
+CRT_API crt_status crt_profile_quadratic_to(crt_profile* profile, double x1, double y1, double x,
+                                            double y, double deviation);
+
+/** Lists what is inside of contours that cross each other, or that lie within each other. */
+typedef enum crt_fill_rule {
+  CRT_FILL_NONZERO = 0, /**< where they go about a point more often in one direction than in the
+                             other; SVG has it unless the drawing says something else */
+  CRT_FILL_EVEN_ODD     /**< where a line to infinity crosses an odd number of pieces */
+} crt_fill_rule;
+/**
+ * Adds the contours of an SVG path, which is the attribute d of a path element. (x, y) of the path
+ * becomes (x, -y), as SVG has y downward. Subpaths are closed. Arcs of circles stay what they are,
+ * and other curves become such arcs. By the nonzero rule, contours are cut where they cross, so
+ * that by the even-odd rule they enclose what they should. The message of an error names the
+ * character of the path. Begin a contour by crt_profile_move_to() before you add further pieces.
+ * @param path       `length` bytes
+ * @param fill       a crt_fill_rule
+ * @param deviation  as for crt_profile_cubic_to(); with 0 each curve has the default for its size
+ */
+CRT_API crt_status crt_profile_svg_path(crt_profile* profile, const char* path, size_t length,
+                                        int32_t fill, double deviation);
+
+/** Tells how many contours a profile has. */
+CRT_API crt_status crt_profile_contour_count(const crt_profile* profile, size_t* count);
+/**
+ * Tells the corners of a contour, three numbers each: x, y, and the bulge of the piece that leads
+ * to it from the corner before.
+ * @param index     below the number of contours
+ * @param corners   an array of 3 * `capacity` numbers; NULL if that is 0
+ * @param count     gets how many corners there are, which may be more than `capacity`; only so many
+ *                  are written
+ */
+CRT_API crt_status crt_profile_contour(const crt_profile* profile, size_t index, double* corners,
+                                       size_t capacity, size_t* count);
+/**
  * Makes an extrusion: a profile that is drawn out from its own plane, which goes through `from`, to
  * `to`. The profile's origin is at `from`. Its x axis is where angles about the axis begin: along z
  * as far as that is across the axis, or along x if the axis is mostly along z. Its y axis is a

@@ -4,6 +4,7 @@
 #include <crt/background.hpp>
 #include <crt/camera.hpp>
 #include <crt/color.hpp>
+#include <crt/curves.hpp>
 #include <crt/entity.hpp>
 #include <crt/error.hpp>
 #include <crt/file.hpp>
@@ -21,6 +22,7 @@
 #include <crt/scene.hpp>
 #include <crt/settings.hpp>
 #include <crt/stats.hpp>
+#include <crt/svg_path.hpp>
 #include <crt/transform.hpp>
 #include <crt/validate.hpp>
 #include <crt/vec.hpp>

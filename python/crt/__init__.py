@@ -40,6 +40,7 @@ from .primitives import (
     Triangle,
     load_mesh,
 )
+from .profiles import svg_path
 from .rays import BACKFACE, ENTERING, HIT, HIT_PART, NO_ENTITY, RAY, camera_rays, ray, rays
 from .rendering import Prepared
 from .scenes import Scene
@@ -121,6 +122,7 @@ __all__ = [
     "load_mesh",
     "ray",
     "rays",
+    "svg_path",
     "union",
     "version",
 ]

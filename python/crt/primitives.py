@@ -10,7 +10,7 @@ from typing import Any, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _arguments
+from . import _arguments, profiles
 from ._arguments import Point
 from ._handles import Reference
 from ._library import create, library
@@ -268,14 +268,17 @@ class Capsule(_Primitive):
 
 def _contours(name: str, profile: Sequence[Any]) -> list[list[tuple[float, ...]]]:
     """Returns the contours of a profile, which may be one or a sequence of several."""
-    wanted = "corners (x, y) or (x, y, bulge), or a sequence of contours of such corners"
+    wanted = (
+        "corners (x, y), (x, y, bulge), (x1, y1, x, y) or (x1, y1, x2, y2, x, y),"
+        " or a sequence of contours of such corners"
+    )
     try:
         is_one = len(profile) == 0 or np.ndim(profile[0][0]) == 0
         contours = [profile] if is_one else profile
         made = [[tuple(map(float, corner)) for corner in contour] for contour in contours]
     except (TypeError, ValueError, IndexError, KeyError):
         raise _arguments.refusal(f"{name}: profile", wanted, profile) from None
-    if not all(len(corner) in (2, 3) for contour in made for corner in contour):
+    if not all(len(corner) in (2, 3, 4, 6) for contour in made for corner in contour):
         raise ValueError(f"{name}: profile must be {wanted}")
     return made
 
@@ -284,13 +287,13 @@ def _profile(contours: list[list[tuple[float, ...]]]) -> Reference:
     """Makes a profile of the contours."""
     handle = Reference(create("crt_profile_create"), library.crt_profile_release)
     for contour in contours:
-        for i, (x, y, *bulge) in enumerate(contour):
+        for i, corner in enumerate(contour):
             if i == 0:
-                library.crt_profile_move_to(handle, x, y)
+                library.crt_profile_move_to(handle, *profiles.end_of(corner))
             else:
-                library.crt_profile_arc_to(handle, x, y, *bulge or (0.0,))
-        if contour and len(contour[0]) == 3:
-            library.crt_profile_arc_to(handle, *contour[0])
+                profiles.add_piece(handle, corner)
+        if contour and len(contour[0]) > 2:
+            profiles.add_piece(handle, contour[0])
     return handle
 
 
@@ -298,7 +301,9 @@ class Extrusion(_Primitive):
     """An Extrusion is a profile that is drawn out from the start to the end. The profile is a
     sequence of corners, (x, y) or (x, y, bulge), or a sequence of such contours. A corner with a
     bulge is joined to the one before it by an arc, of whose angle the bulge is the tangent of a
-    quarter. What is inside says the even-odd rule. The profile's origin is at the start. Its x is
+    quarter. A corner (x1, y1, x2, y2, x, y) is joined by a cubic Bezier curve, whose control points
+    come first, and (x1, y1, x, y) by a quadratic one. crt.svg_path gives contours of a drawing.
+    What is inside says the even-odd rule. The profile's origin is at the start. Its x is
     along z as far as that is across the axis, or along x if the axis is mostly along z, and its y
     is a quarter of a turn from there about the axis."""
 

@@ -99,6 +99,7 @@ struct crt_diagnostics : crt::capi::Counted {
 
 struct crt_profile : crt::capi::Counted {
   std::vector<crt::Contour> contours;
+  bool is_drawn = false;  ///< whether pieces can be added to the last contour
 };
 
 struct crt_file_content {

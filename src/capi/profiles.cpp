@@ -1,18 +1,32 @@
 // This file implements profiles of the C interface, and what is made of them.
+#include <iterator>
+
 #include "capi/structs.hpp"
+#include "crt/curves.hpp"
+#include "crt/svg_path.hpp"
 
 namespace crt::capi {
 
 namespace {
 
+/// Returns the contour to which pieces are added.
+Contour& drawn_contour(crt_profile* profile) {
+  require(profile, "profile");
+  if (!profile->is_drawn) {
+    reject("profile", "must have the begin of a contour first: call crt_profile_move_to");
+  }
+  return profile->contours.back();
+}
+
 crt_status add_piece(crt_profile* profile, const ProfilePoint& corner) {
-  return guarded([&] {
-    require(profile, "profile");
-    if (profile->contours.empty()) {
-      reject("profile", "must have the begin of a contour first: call crt_profile_move_to");
-    }
-    profile->contours.back().push_back(corner);
-  });
+  return guarded([&] { drawn_contour(profile).push_back(corner); });
+}
+
+/// Adds finished contours.
+void add_contours(crt_profile& profile, std::vector<Contour> contours) {
+  profile.contours.insert(profile.contours.end(), std::make_move_iterator(contours.begin()),
+                          std::make_move_iterator(contours.end()));
+  profile.is_drawn = false;
 }
 
 }  // namespace
@@ -32,6 +46,7 @@ crt_status crt_profile_move_to(crt_profile* profile, double x, double y) {
   return guarded([&] {
     require(profile, "profile");
     profile->contours.push_back({{.x = x, .y = y}});
+    profile->is_drawn = true;
   });
 }
 
@@ -41,6 +56,57 @@ crt_status crt_profile_line_to(crt_profile* profile, double x, double y) {
 
 crt_status crt_profile_arc_to(crt_profile* profile, double x, double y, double bulge) {
   return add_piece(profile, {.x = x, .y = y, .bulge = bulge});
+}
+
+crt_status crt_profile_cubic_to(crt_profile* profile, double x1, double y1, double x2, double y2,
+                                double x, double y, double deviation) {
+  return guarded([&] {
+    crt::append_cubic(drawn_contour(profile), {x1, y1}, {x2, y2}, {x, y}, deviation);
+  });
+}
+
+crt_status crt_profile_quadratic_to(crt_profile* profile, double x1, double y1, double x, double y,
+                                    double deviation) {
+  return guarded([&] {
+    crt::append_quadratic(drawn_contour(profile), {x1, y1}, {x, y}, deviation);
+  });
+}
+
+crt_status crt_profile_svg_path(crt_profile* profile, const char* path, size_t length, int32_t fill,
+                                double deviation) {
+  return guarded([&] {
+    require(profile, "profile");
+    require(path, "path");
+    const auto rule = to_enum(fill, crt::FillRule::even_odd, "fill", "crt_fill_rule");
+    std::vector<crt::Contour> contours =
+        crt::svg_path_contours({path, length}, {.fill = rule, .deviation = deviation});
+    add_contours(*profile, std::move(contours));
+  });
+}
+
+crt_status crt_profile_contour_count(const crt_profile* profile, size_t* count) {
+  return guarded([&] {
+    require(profile, "profile");
+    require(count, "count");
+    *count = profile->contours.size();
+  });
+}
+
+crt_status crt_profile_contour(const crt_profile* profile, size_t index, double* corners,
+                               size_t capacity, size_t* count) {
+  return guarded([&] {
+    require(profile, "profile");
+    if (capacity > 0) require(corners, "corners");
+    require(count, "count");
+    if (index >= profile->contours.size()) reject("index", "must be below the number of contours");
+    const crt::Contour& contour = profile->contours[index];
+    for (std::size_t i = 0; i < contour.size() && i < capacity; ++i) {
+      corners[3 * i] = contour[i].x;
+      corners[3 * i + 1] = contour[i].y;
+      corners[3 * i + 2] = contour[i].bulge;
+    }
+    *count = contour.size();
+  });
 }
 
 crt_status crt_extrusion_create(const crt_profile* profile, const double from[3],

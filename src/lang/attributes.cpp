@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "crt/curves.hpp"
 #include "lang/failure.hpp"
 #include "lang/suggestion.hpp"
 
@@ -77,18 +78,49 @@ const Pattern& copied(const Given& given, Context& context, const Pattern& patte
   return pattern;
 }
 
-/// Reads a corner of a contour: [x, y] or [x, y, bulge].
-std::optional<ProfilePoint> corner_of(const Value& value) {
+/// A ContourItem is an item of a contour's List: the numbers of a corner, or of a curve with its
+/// control points.
+struct ContourItem {
+  std::array<double, 6> numbers{};
+  std::size_t count = 0;
+
+  bool is_curve() const { return count == 4 || count == 6; }
+  CurvePoint point(std::size_t i) const { return {numbers[2 * i], numbers[2 * i + 1]}; }
+  ProfilePoint corner() const {
+    if (!is_curve()) return {.x = numbers[0], .y = numbers[1], .bulge = numbers[2]};
+    return {.x = numbers[count - 2], .y = numbers[count - 1]};
+  }
+  /// Adds the piece that leads here from the corner before.
+  void append_to(Contour& contour) const {
+    if (count == 6) {
+      append_cubic(contour, point(0), point(1), point(2));
+    } else if (count == 4) {
+      append_quadratic(contour, point(0), point(1));
+    } else {
+      contour.push_back(corner());
+    }
+  }
+};
+
+std::optional<ContourItem> contour_item(const Value& value) {
   const List* list = std::get_if<List>(&value);
-  if (!list || (*list)->items.size() < 2 || (*list)->items.size() > 3) return std::nullopt;
-  std::array<double, 3> numbers{};
-  for (std::size_t i = 0; i < (*list)->items.size(); ++i) {
+  ContourItem item{.count = list ? (*list)->items.size() : 0};
+  if (item.count != 2 && item.count != 3 && !item.is_curve()) return std::nullopt;
+  for (std::size_t i = 0; i < item.count; ++i) {
     double storage = 0;
     const double* number = as_float((*list)->items[i], storage);
     if (!number) return std::nullopt;
-    numbers[i] = *number;
+    item.numbers[i] = *number;
   }
-  return ProfilePoint{.x = numbers[0], .y = numbers[1], .bulge = numbers[2]};
+  return item;
+}
+
+void append(const Given& given, const ContourItem& item, Contour& contour) {
+  try {
+    item.append_to(contour);
+  } catch (const Error& error) {
+    reject(given, fmt::format("has a curve that is wrong: {}", error.what()));
+  }
 }
 
 /// The memory of a corner of a profile, with what a prepared scene makes of it, is paid for by so
@@ -96,19 +128,28 @@ std::optional<ProfilePoint> corner_of(const Value& value) {
 constexpr std::size_t steps_per_corner = 64;
 
 Contour contour_of(const Given& given, Context& context, const std::vector<Value>& items) {
-  context.spend(given.value_span, steps_per_corner * items.size());
   Contour contour;
   contour.reserve(items.size());
-  for (const Value& item : items) {
-    const std::optional<ProfilePoint> corner = corner_of(item);
-    if (!corner) {
+  std::optional<ContourItem> closing;
+  for (const Value& value : items) {
+    const std::optional<ContourItem> item = contour_item(value);
+    if (!item) {
       reject(given,
              fmt::format("must have corners such as [0, 1], or [0, 1, 0.5] with the bulge of an "
-                         "arc; it has {} in it",
-                         type_with_article(item)));
+                         "arc, or [1, 0, 1, 1, 0, 1] with the control points of a curve; it has {} "
+                         "in it",
+                         type_with_article(value)));
     }
-    contour.push_back(*corner);
+    const std::size_t before = contour.size();
+    if (contour.empty()) {
+      contour.push_back(item->corner());
+      if (item->is_curve()) closing = item;
+    } else {
+      append(given, *item, contour);
+    }
+    context.spend(given.value_span, steps_per_corner * (1 + contour.size() - before));
   }
+  if (closing) append(given, *closing, contour);
   return contour;
 }
 

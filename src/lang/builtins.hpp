@@ -64,5 +64,6 @@ std::span<const Builtin> builtins();
 std::span<const Builtin> number_builtins();
 std::span<const Builtin> vector_builtins();
 std::span<const Builtin> list_builtins();
+std::span<const Builtin> contour_builtins();
 
 }  // namespace crt::lang

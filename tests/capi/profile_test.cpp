@@ -1,6 +1,7 @@
 // Profiles are put together piece by piece, and drawn out to solids.
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "support.hpp"
@@ -115,4 +116,65 @@ TEST_CASE("an error of a profile says where it is") {
   fails("contour 0 must enclose an area");
   CHECK(crt_profile_line_to(profile.get(), 1, std::nan("")) == CRT_OK);
   fails("corner 2 of contour 0");
+}
+
+TEST_CASE("curves and SVG paths become contours, whose corners can be read") {
+  const ProfileHandle profile = new_profile();
+  CHECK(crt_profile_move_to(profile.get(), 0, 0) == CRT_OK);
+  CHECK(crt_profile_cubic_to(profile.get(), 0, 1, 1, 1, 1, 0, 1e-3) == CRT_OK);
+  CHECK(crt_profile_quadratic_to(profile.get(), 1, -1, 0, 0, 0) == CRT_OK);
+  const std::string path = "M10 0A1 1 0 0 1 12 0z M20 0h1v1z";
+  CHECK(crt_profile_svg_path(profile.get(), path.data(), path.size(), CRT_FILL_NONZERO, 0) ==
+        CRT_OK);
+  std::size_t count = 0;
+  CHECK(crt_profile_contour_count(profile.get(), &count) == CRT_OK);
+  CHECK(count == 3);
+  std::array<double, 9> corners = {};
+  CHECK(crt_profile_contour(profile.get(), 2, corners.data(), 3, &count) == CRT_OK);
+  CHECK(count == 3);
+  CHECK(corners == std::array<double, 9>{20, 0, 0, 21, 0, 0, 21, -1, 0});
+  corners = {};
+  CHECK(crt_profile_contour(profile.get(), 1, corners.data(), 1, &count) == CRT_OK);
+  CHECK(count == 2);
+  CHECK(corners == std::array<double, 9>{10, 0, 0});
+  CHECK(crt_profile_contour(profile.get(), 0, nullptr, 0, &count) == CRT_OK);
+  CHECK(count > 6);
+  const EntityHandle entity = extrusion(profile.get(), {0, 0, 0}, {0, 0, 1});
+  // The cubic's highest point is at 3/4.
+  CHECK(crossings(entity.get(), {0.5, 2, 0.5}, {0, -1, 0})[0] ==
+        doctest::Approx(1.25).epsilon(2e-3));
+  CHECK(crossings(entity.get(), {11, -1, 0.5}, {0, 1, 0}) == std::vector<double>{1, 2});
+}
+
+TEST_CASE("a wrong curve or path changes nothing, and says why") {
+  const ProfileHandle profile = new_profile();
+  const auto refuses = [](crt_status status, const char* text) {
+    CHECK(status == CRT_ERROR_INVALID_ARGUMENT);
+    INFO(message());
+    CHECK(says(text));
+  };
+  std::size_t count = 0;
+  double corner[3];
+  refuses(crt_profile_cubic_to(nullptr, 0, 0, 1, 0, 1, 1, 0), "profile");
+  refuses(crt_profile_quadratic_to(nullptr, 0, 0, 1, 1, 0), "profile");
+  refuses(crt_profile_cubic_to(profile.get(), 0, 0, 1, 0, 1, 1, 0), "crt_profile_move_to");
+  CHECK(crt_profile_move_to(profile.get(), 0, 0) == CRT_OK);
+  refuses(crt_profile_cubic_to(profile.get(), 0, infinity, 1, 0, 1, 1, 0), "control1");
+  refuses(crt_profile_quadratic_to(profile.get(), 0, not_a_number, 1, 1, 0), "control");
+  refuses(crt_profile_quadratic_to(profile.get(), 0, 1, 1, 1, -1), "deviation");
+  refuses(crt_profile_svg_path(nullptr, "", 0, 0, 0), "profile");
+  refuses(crt_profile_svg_path(profile.get(), nullptr, 1, 0, 0), "path");
+  refuses(crt_profile_svg_path(profile.get(), "M0 0h1v1", 8, 2, 0), "fill");
+  refuses(crt_profile_svg_path(profile.get(), "M0 0h1v1", 8, -1, 0), "fill");
+  refuses(crt_profile_svg_path(profile.get(), "M0 0h1x1", 8, 0, 0), "character 7");
+  refuses(crt_profile_contour_count(nullptr, &count), "profile");
+  refuses(crt_profile_contour_count(profile.get(), nullptr), "count");
+  refuses(crt_profile_contour(nullptr, 0, corner, 1, &count), "profile");
+  refuses(crt_profile_contour(profile.get(), 0, nullptr, 1, &count), "corners");
+  refuses(crt_profile_contour(profile.get(), 0, corner, 1, nullptr), "count");
+  refuses(crt_profile_contour(profile.get(), 1, corner, 1, &count), "index");
+  CHECK(crt_profile_contour_count(profile.get(), &count) == CRT_OK);
+  CHECK(count == 1);
+  CHECK(crt_profile_svg_path(profile.get(), "M0 0h1v1", 8, CRT_FILL_EVEN_ODD, 0) == CRT_OK);
+  refuses(crt_profile_line_to(profile.get(), 1, 1), "crt_profile_move_to");
 }

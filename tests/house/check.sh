@@ -45,7 +45,7 @@ recorded='^tests/abi/(1\.0|older/older_crt\.h)' # kept as it was released
 
 # A folder of src/core uses those before it in this list, and itself.
 layers=(base simd math ray tasks sampling geometry csg shading camera compile accel intersect
-  prepare render image mesh_files)
+  prepare render image mesh_files contours)
 check_layers() {
   local position later
   for position in "${!layers[@]}"; do

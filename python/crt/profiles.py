@@ -1,0 +1,63 @@
+"""Profiles are made of contours. These functions make contours of drawings, as lists of corners
+(x, y, bulge), for crt.Extrusion and for what else takes a profile."""
+
+import ctypes
+from typing import Any, SupportsFloat
+
+from . import _arguments
+from ._handles import Reference
+from ._library import create, library
+from .errors import named
+
+__all__ = ["svg_path"]
+
+Contour = list[tuple[float, float, float]]
+
+
+def svg_path(path: str, *, even_odd: bool = False, deviation: SupportsFloat = 0) -> list[Contour]:
+    """Returns the contours of an SVG path, which is the attribute d of a path element. As SVG has y
+    downward, (x, y) of the path becomes (x, -y). What is inside says SVG's nonzero rule, or the
+    even-odd rule. Curves become arcs within `deviation`, or by default within a 10000th of the size
+    of each curve."""
+    text = _arguments.text(path, "svg_path: path")
+    within = _arguments.number(deviation, "svg_path: deviation")
+    handle = _new_profile()
+    with named("svg_path"):
+        library.crt_profile_svg_path(handle, text, len(text), int(bool(even_odd)), within)
+    return _contours_of(handle)
+
+
+def _new_profile() -> Reference:
+    return Reference(create("crt_profile_create"), library.crt_profile_release)
+
+
+def _contours_of(handle: Reference) -> list[Contour]:
+    """Returns the contours that a profile of C has."""
+    contours = []
+    count = ctypes.c_size_t()
+    library.crt_profile_contour_count(handle, ctypes.byref(count))
+    for index in range(count.value):
+        size = ctypes.c_size_t()
+        library.crt_profile_contour(handle, index, None, 0, ctypes.byref(size))
+        numbers = (ctypes.c_double * (3 * size.value))()
+        library.crt_profile_contour(handle, index, numbers, size.value, ctypes.byref(size))
+        corners = iter(numbers)
+        contours.append(list(zip(corners, corners, corners)))
+    return contours
+
+
+def end_of(corner: tuple[float, ...]) -> tuple[float, ...]:
+    """Returns where a corner is, which control points may come before."""
+    return corner[:2] if len(corner) == 3 else corner[-2:]
+
+
+def add_piece(handle: Any, corner: tuple[float, ...]) -> None:
+    """Adds the piece that leads to a corner."""
+    if len(corner) < 4:
+        library.crt_profile_arc_to(handle, *corner, *(0.0,) * (3 - len(corner)))
+        return
+    with named("profile"):
+        if len(corner) == 6:
+            library.crt_profile_cubic_to(handle, *corner, 0.0)
+        else:
+            library.crt_profile_quadratic_to(handle, *corner, 0.0)

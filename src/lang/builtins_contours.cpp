@@ -1,0 +1,74 @@
+// This file has the built-in that makes contours of profiles from a drawing.
+#include <array>
+#include <string>
+#include <utility>
+
+#include "crt/svg_path.hpp"
+#include "lang/builtins.hpp"
+#include "lang/failure.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+/// The work of so many steps of the core takes about as long as one of a script.
+constexpr std::uint64_t work_per_step = 16;
+
+/// Returns a contour as scripts write it: corners [x, y] or [x, y, bulge].
+Value list_of(const Arguments& arguments, const Contour& contour) {
+  Context& context = arguments.context;
+  std::vector<Value> corners;
+  corners.reserve(contour.size());
+  for (const ProfilePoint& corner : contour) {
+    context.step(arguments.call);
+    std::vector<Value> numbers = {corner.x, corner.y};
+    if (corner.bulge != 0) numbers.emplace_back(corner.bulge);
+    corners.push_back(context.make_list(arguments.call, std::move(numbers)));
+  }
+  return context.make_list(arguments.call, std::move(corners));
+}
+
+FillRule fill_rule(const Arguments& arguments, std::size_t i) {
+  const auto* rule = std::get_if<String>(&arguments[i]);
+  if (rule && (*rule)->text == "nonzero") return FillRule::nonzero;
+  if (rule && (*rule)->text == "evenodd") return FillRule::even_odd;
+  arguments.wrong_type(i, "\"nonzero\" or \"evenodd\"");
+}
+
+/// Computes svg(path), svg(path, deviation) or svg(path, deviation, rule).
+Value svg(const Arguments& arguments) {
+  Context& context = arguments.context;
+  const auto* path = std::get_if<String>(&arguments[0]);
+  if (!path) arguments.wrong_type(0, "a String");
+  PathOptions options;
+  if (arguments.size() > 1) options.deviation = arguments.number(1);
+  if (arguments.size() > 2) options.fill = fill_rule(arguments, 2);
+  options.work = [&](std::uint64_t work) {
+    context.spend(arguments.call, static_cast<std::size_t>(work / work_per_step));
+  };
+  context.spend(arguments.call, (*path)->text.size());
+  try {
+    std::vector<Value> contours;
+    for (const Contour& contour : svg_path_contours((*path)->text, options)) {
+      contours.push_back(list_of(arguments, contour));
+    }
+    return context.make_list(arguments.call, std::move(contours));
+  } catch (const Error& error) {
+    const std::size_t wrong = error.argument() == "deviation" ? 1 : 0;
+    throw Failure{.span = arguments.span(wrong < arguments.size() ? wrong : 0),
+                  .message = std::string("svg: ") + error.what(),
+                  .code = error.code()};
+  }
+}
+
+constexpr std::array table = {
+    Builtin{"svg", "svg(path, deviation, rule)", 1, 3, svg},
+};
+
+}  // namespace
+
+std::span<const Builtin> contour_builtins() {
+  return table;
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,49 @@
+"""Contours of profiles have curves, and come from drawings."""
+
+import math
+import unittest
+
+import crt
+
+
+def crossings(profile, y):
+    """Returns where a ray along x meets the extrusion of a profile."""
+    scene = crt.Scene([crt.Extrusion(profile, (0, 0, 0), (0, 0, 1))])
+    hits = scene.prepare().crossings(crt.ray((-100, y, 0.5), (1, 0, 0)))
+    return [round(t - 100, 3) for t in hits["t"]]
+
+
+class Profiles(unittest.TestCase):
+    def test_curves(self):
+        parabola = [(-1, 1), (0, -1, 1, 1)]
+        self.assertEqual(crossings(parabola, 0.25), [-0.5, 0.5])
+        closing = [(-1 / 3, -1 / 3, 1 / 3, -1 / 3, 1, 1), (-1, 1)]
+        self.assertEqual(crossings(closing, 0.25), [-0.5, 0.5])
+        with self.assertRaisesRegex(crt.Error, "profile: control must have finite numbers"):
+            crossings([(0, 0), (math.inf, 0, 1, 1)], 0)
+        with self.assertRaisesRegex(ValueError, "profile must be corners"):
+            crossings([(0, 0), (1, 2, 3, 4, 5)], 0)
+
+    def test_svg_path(self):
+        self.assertEqual(crt.svg_path("M0 0H2V1z"), [[(0, 0, 0), (2, 0, 0), (2, -1, 0)]])
+        self.assertEqual(crt.svg_path("M0 0A1 1 0 0 1 2 0z"), [[(0, 0, 0), (2, 0, -1)]])
+        rings = "M0 0H9V9H0ZM3 3H6V6H3Z"
+        self.assertEqual(crossings(crt.svg_path(rings), -4), [0, 9])
+        self.assertEqual(crossings(crt.svg_path(rings, even_odd=True), -4), [0, 3, 6, 9])
+        curve = "M0 0Q1 1 2 0"
+        coarse, fine = (crt.svg_path(curve, deviation=d) for d in (0.1, 1e-6))
+        self.assertLess(len(coarse[0]), len(fine[0]))
+
+    def test_errors(self):
+        with self.assertRaisesRegex(crt.Error, "svg_path: path has 'X' at character 5"):
+            crt.svg_path("M0 0X")
+        with self.assertRaisesRegex(crt.Error, "svg_path: deviation must be 0 or at least"):
+            crt.svg_path("M0 0Q1 1 2 0", deviation=-1)
+        with self.assertRaisesRegex(TypeError, "svg_path: deviation must be a number"):
+            crt.svg_path("M0 0Q1 1 2 0", deviation=None)
+        with self.assertRaisesRegex(TypeError, "svg_path: path must be a text"):
+            crt.svg_path(3)
+
+
+if __name__ == "__main__":
+    unittest.main()
