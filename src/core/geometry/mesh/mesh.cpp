@@ -5,34 +5,6 @@
 
 namespace crt::core {
 
-namespace {
-
-class StandardTier final : public MeshTier {
- public:
-  explicit StandardTier(const ObjectRay& ray) : ray_(ray) { ray_.start = {}; }
-
-  bool meet(const Triangle& triangle, Crossing& crossing) const override {
-    const PlaneFace::Meeting meeting = TriangleShape(triangle).meet(ray_);
-    crossing.t = meeting.t;
-    crossing.error = meeting.error;
-    return meeting.found;
-  }
-
-  int order(const Crossing& first, const Crossing& second) const override {
-    return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
-  }
-
- private:
-  ObjectRay ray_;  ///< without where it starts
-};
-
-}  // namespace
-
-bool standard_crossings(const MeshTriangles& mesh, const ObjectRay& ray, CrossingList& out) {
-  PassingLine line(ray);
-  return append_crossings(mesh, line, StandardTier(ray), out);
-}
-
 bool MeshShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return standard_crossings(*triangles_, ray, out);
 }

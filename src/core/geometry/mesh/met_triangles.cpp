@@ -1,374 +1,26 @@
 #include "core/geometry/mesh/met_triangles.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
 
-#include "core/base/sort_by_insertion.hpp"
-#include "core/geometry/grid_boxes.hpp"
-#include "core/geometry/open_nodes.hpp"
-#include "core/geometry/order_of_places.hpp"
-#include "core/math/vector.hpp"
+#include "core/geometry/mesh/find_met_triangles.hpp"
+#include "core/geometry/mesh/triangles.hpp"
 
 namespace crt::core {
 
-namespace {
-
-/// A TreePart is still to be looked at.
-struct TreePart {
-  double enter;  ///< where the line comes to it
-  BvhChild child;
-};
-
-/// Returns more than the distance of a crossing's t from where it is, with t_low and the rounding
-/// of a sum with it.
-double reach_of(const Crossing& crossing) {
-  return crossing.error + 4 * rounding_of(crossing.t);
-}
-double lowest(const Crossing& crossing) {
-  return crossing.t - reach_of(crossing);
-}
-double highest(const Crossing& crossing) {
-  return crossing.t + reach_of(crossing);
+StandardMeshTier::StandardMeshTier(const ObjectRay& ray) : ray_(ray) {
+  ray_.start = {};
 }
 
-/// MetTriangles makes one list of crossings.
-class MetTriangles {
- public:
-  MetTriangles(const MeshTriangles& mesh, PassingLine& line, const MeshTier& tier,
-               CrossingList& list)
-      : mesh_(mesh), line_(line), ray_(line.near()), tier_(tier), list_(list) {}
-
-  bool append();
-
- private:
-  using Place = CrossingList::iterator;
-
-  Place first() const { return list_.begin() + static_cast<std::ptrdiff_t>(begin_); }
-  bool starts_on(const MeshTriangles::PlaneOf& plane) const {
-    return ray_.start.face != no_face && plane.first == mesh_.plane_of(ray_.start.face).first;
-  }
-  bool starts_on(std::uint32_t triangle) const {
-    return ray_.start.face != no_face && starts_on(mesh_.plane_of(triangle));
-  }
-  void find(bool first_is_enough);
-  Crossing meet(const MeshTriangles::Placed& triangle, bool along) const;
-  bool may_be_last(const Crossing& crossing, Facing facing) const;
-  bool leave_out_rest();
-  bool find_all();
-  bool finish();
-  void keep_in_triangle(const Triangle& triangle, Crossing& crossing) const;
-  double start_slack() const;
-  double most_overlap() const;
-  double begin_of_line() const { return ray_.begin - start_slack(); }
-  bool is_behind(const Crossing& crossing, BvhChild leaf) const;
-  /// Returns the size of all coordinates, which their roundings are relative to.
-  double place_size() const { return largest_component(ray_.origin) + mesh_.bounds().farthest(); }
-  int order(const Crossing& a, const Crossing& b) const;
-  void sort();
-  void drop_empty_parts();
-  bool agree_with_start();
-  bool is_through_origin(const Crossing& crossing) const;
-  bool is_inside_at_begin() const { return ((list_.size() - begin_) % 2 != 0) != rest_is_odd_; }
-  Place put_behind(Place met) const;
-  void take_turns();
-
-  const MeshTriangles& mesh_;
-  PassingLine& line_;
-  const ObjectRay& ray_;
-  const MeshTier& tier_;
-  CrossingList& list_;
-  std::size_t begin_ = 0;
-  double found_up_to_ = infinity;  ///< there may be more crossings beyond, where the last ends
-  std::uint32_t last_ = no_face;   ///< its triangle
-  Facing last_facing_ = Facing::unknown;
-  /// Says that crossings are left out at the end, and whether they are odd in number: whether the
-  /// line is inside after the last that is not.
-  bool has_rest_ = false;
-  bool rest_is_odd_ = false;
-};
-
-bool MetTriangles::append() {
-  begin_ = list_.size();
-  const bool first_is_enough = ray_.first_above < infinity;
-  find(first_is_enough);
-  if (!mesh_.is_closed()) {
-    sort();
-    return false;
-  }
-  if (found_up_to_ < infinity && !leave_out_rest()) return find_all();
-  return finish();
+bool StandardMeshTier::meet(const Triangle& triangle, Crossing& crossing) const {
+  const PlaneFace::Meeting meeting = TriangleShape(triangle).meet(ray_);
+  crossing.t = meeting.t;
+  crossing.error = meeting.error;
+  return meeting.found;
 }
 
-/// Makes the list of a solid what it is to be. Returns whether the line is inside at its begin.
-bool MetTriangles::finish() {
-  sort();
-  if (ray_.start.face != no_face && !agree_with_start()) return find_all();
-  drop_empty_parts();
-  take_turns();
-  return is_inside_at_begin();
+int StandardMeshTier::order(const Crossing& first, const Crossing& second) const {
+  return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
 }
-
-/// Begins again without an end.
-bool MetTriangles::find_all() {
-  list_.resize(begin_);
-  found_up_to_ = infinity;
-  has_rest_ = rest_is_odd_ = false;
-  find(false);
-  return finish();
-}
-
-/// Returns how far before its begin a ray that starts on a triangle may meet others that rounding
-/// has put there.
-double MetTriangles::start_slack() const {
-  if (ray_.start.face == no_face) return 0;
-  constexpr double share = 0x1p-30;
-  return share * place_size() / largest_component(ray_.direction);
-}
-
-/// Returns how far before its box a crossing may be, as far as its error says. Where the line all
-/// but grazes a triangle, that is as far as keep_in_triangle() lets it be.
-double MetTriangles::most_overlap() const {
-  constexpr double roundings = 0x1p-48;
-  const double most_error = mesh_.longest_edge() + roundings * place_size();
-  return 2 * most_error / largest_component(ray_.direction);
-}
-
-/// Finds the crossings, from near to far. If the first that is asked for is enough, it stops behind
-/// one after which nothing matters, provided that this is alone.
-void MetTriangles::find(bool first_is_enough) {
-  const GridSlabs slabs(ray_.origin, ray_.direction, line_.origin_error());
-  LineSpan part{slabs.to_s(begin_of_line()), infinity};
-  const double margin = mesh_.is_closed() ? most_overlap() : 0;
-  constexpr std::size_t usual = 256;
-  OpenNodes<TreePart, usual> open;
-  open.push({-infinity, BvhChild::node(0)});
-  const CompactBvh& tree = mesh_.tree();
-  while (!open.empty()) {
-    const auto [enter, child] = open.pop();
-    if (enter > part.leave) continue;
-    if (!child.is_leaf()) {
-      const std::size_t before = open.count();
-      tree.visit(child.index(), slabs, part, [&](BvhChild next, double place) {
-        open.push({place, next});
-      });
-      // The nearest comes last. This order saves time, and nothing else.
-      sort_by_insertion(open.from(before),
-                        [](const TreePart& a, const TreePart& b) { return a.enter > b.enter; });
-      continue;
-    }
-    const std::uint32_t all = (1u << child.count()) - 1;
-    const PassingLine::Crossed crossed =
-        line_.crosses(mesh_.placed_corners(child.index(), child.count()), all);
-    for (std::uint32_t left = crossed.along | crossed.against; left != 0; left &= left - 1) {
-      const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
-      const MeshTriangles::Placed& triangle = mesh_.placed()[child.index() + place];
-      const Crossing crossing = meet(triangle, (crossed.along >> place & 1u) != 0);
-      if (is_behind(crossing, child)) continue;
-      list_.push_back(crossing);
-      if (!first_is_enough || !may_be_last(crossing, triangle.plane.faces())) continue;
-      if (!(highest(crossing) < found_up_to_)) continue;
-      found_up_to_ = highest(crossing);
-      part.leave = slabs.to_s(found_up_to_ + margin);
-      last_ = triangle.number;
-      last_facing_ = triangle.plane.faces();
-    }
-  }
-}
-
-/// Returns whether a leaf of the tree is all before the begin, so that only rounding may have put a
-/// crossing in it elsewhere.
-bool MetTriangles::is_behind(const Crossing& crossing, BvhChild leaf) const {
-  const double begin = begin_of_line();
-  if (!(lowest(crossing) <= begin)) return false;
-  Bounds box;
-  for (const MeshTriangles::Placed& placed : mesh_.placed().subspan(leaf.index(), leaf.count())) {
-    const auto [a, b, c, material] = mesh_.corners_of(placed);
-    for (const Vec3& corner : {a, b, c}) box.include(corner);
-  }
-  return RaySlabs(ray_.origin, ray_.direction, line_.origin_error()).span(box).leave < begin;
-}
-
-/// Returns whether nothing matters after a crossing, if it is alone: it is known whether the line
-/// is inside there.
-bool MetTriangles::may_be_last(const Crossing& crossing, Facing facing) const {
-  if (!ray_.is_first_asked(crossing) || !(highest(crossing) < infinity)) return false;
-  if (!mesh_.is_closed()) return true;
-  return facing != Facing::unknown && (ray_.start.face == no_face || lowest(crossing) > 0);
-}
-
-/// Leaves out what is beyond the last crossing that matters. Returns false if that is not alone.
-bool MetTriangles::leave_out_rest() {
-  const auto last = std::find_if(
-      first(), list_.end(), [this](const Crossing& crossing) { return crossing.face == last_; });
-  if (!is_alone(*last, std::span(first(), list_.end()))) return false;
-  has_rest_ = last->has_rest = true;
-  rest_is_odd_ = last->entering == (last_facing_ == Facing::outwards);
-  list_.erase(
-      std::remove_if(first(), list_.end(),
-                     [this](const Crossing& other) { return lowest(other) > found_up_to_; }),
-      list_.end());
-  return true;
-}
-
-Crossing MetTriangles::meet(const MeshTriangles::Placed& triangle, bool along) const {
-  Crossing crossing{.face = triangle.number, .entering = !along};
-  if (starts_on(triangle.plane)) return crossing;
-  const Triangle corners = mesh_.corners_of(triangle);
-  const bool is_first = triangle.plane.first == triangle.number;
-  if (tier_.meet(is_first ? corners : mesh_.triangle(triangle.plane.first), crossing)) {
-    keep_in_triangle(corners, crossing);
-  } else {
-    const double ahead = glm::dot(corners.a - ray_.origin, ray_.direction);
-    crossing.t = std::copysign(infinity, ahead);
-  }
-  return crossing;
-}
-
-/// A line that all but grazes a triangle still meets it between its corners, and nowhere else.
-void MetTriangles::keep_in_triangle(const Triangle& triangle, Crossing& crossing) const {
-  const double scale = inverse_of_power(power_of_two_below(largest_component(ray_.direction)));
-  const Vec3 direction = scale * ray_.direction;
-  const double squared_length = glm::dot(direction, direction);
-  double low = infinity;
-  double high = -infinity;
-  double reach = 0;
-  for (const Vec3* corner : {&triangle.a, &triangle.b, &triangle.c}) {
-    const Vec3 offset = *corner - ray_.origin;
-    const double t = glm::dot(offset, direction) / squared_length * scale;
-    low = std::min(low, t);
-    high = std::max(high, t);
-    reach = std::max(reach, largest_component(offset));
-  }
-  constexpr double roundings = 16;
-  const double slack = roundings * unit_roundoff * reach * scale;
-  if (!(crossing.error > high - low + slack)) return;
-  crossing.t = std::clamp(crossing.t, low, high);
-  crossing.t_low = 0;
-  crossing.error = high - low + slack;
-}
-
-int MetTriangles::order(const Crossing& a, const Crossing& b) const {
-  return order_of_places(
-      a, b, [this](std::uint32_t face) { return starts_on(face); },
-      [this](const Crossing& one, const Crossing& other) { return tier_.order(one, other); });
-}
-
-void MetTriangles::sort() {
-  std::sort(first(), list_.end(), [this](const Crossing& a, const Crossing& b) {
-    const int by_place = order(a, b);
-    return by_place != 0 ? by_place < 0 : a.face < b.face;
-  });
-}
-
-/// Drops what the line is in or out of for no length. Of several crossings in one place one is
-/// left if they are odd in number: it is against their normals, or along these, as most are.
-void MetTriangles::drop_empty_parts() {
-  auto kept = first();
-  for (auto group = first(); group != list_.end();) {
-    auto end = group;
-    std::ptrdiff_t entering = 0;
-    bool is_start = false;
-    for (; end != list_.end() && order(*group, *end) == 0; ++end) {
-      entering += end->entering ? 1 : -1;
-      is_start = is_start || starts_on(end->face);
-    }
-    if ((end - group) % 2 != 0 || is_start) {
-      const auto chosen = std::find_if(group, end, [&](const Crossing& crossing) {
-        return is_start ? starts_on(crossing.face) : crossing.entering == (entering > 0);
-      });
-      *kept++ = *chosen;
-    }
-    group = end;
-  }
-  list_.erase(kept, list_.end());
-}
-
-/// Returns whether the origin is in a triangle's plane but for what rounding may have moved it by.
-bool MetTriangles::is_through_origin(const Crossing& crossing) const {
-  const Triangle corners = mesh_.triangle(crossing.face);
-  const Vec3 normal = unit_vector(glm::cross(corners.b - corners.a, corners.c - corners.a));
-  constexpr double roundings = 64;
-  const double tolerance = roundings * unit_roundoff * place_size();
-  return std::abs(glm::dot(normal, corners.a - ray_.origin)) <= tolerance;
-}
-
-/// Makes the list agree with the side to which the ray leaves. Next to an edge rounding may have
-/// put its origin beyond another triangle of that edge, which it then meets too often or too
-/// rarely. From an edge itself it may leave past all triangles, without being inside: then it does
-/// not meet its own either. Returns false where that may take what was left out.
-bool MetTriangles::agree_with_start() {
-  const RayStart& start = ray_.start;
-  const auto is_start = [&](const Crossing& crossing) { return starts_on(crossing.face); };
-  auto found = std::find_if(first(), list_.end(), is_start);
-  if (found == list_.end()) {
-    if (!start.on_face) return true;
-    found = std::find_if(first(), list_.end(), [](const Crossing& met) { return met.t >= 0; });
-    found =
-        list_.insert(found, {.t = 0, .face = start.face, .entering = start.side == Side::inside});
-  }
-  const bool is_turned = mesh_.plane_of(found->face).turned != mesh_.plane_of(start.face).turned;
-  const bool goes_inside = (start.side == Side::inside) != is_turned;
-  const auto ahead = std::count_if(first(), list_.end(), [&](const Crossing& crossing) {
-    return crossing.t > 0 && !is_start(crossing);
-  });
-  if (((ahead % 2 != 0) != rest_is_odd_) == goes_inside) return true;
-  if (has_rest_) return false;
-  auto nearest = list_.end();
-  for (auto met = first(); met != list_.end(); ++met) {
-    if (is_start(*met) || !is_through_origin(*met)) continue;
-    if (nearest == list_.end() || std::abs(met->t) < std::abs(nearest->t)) nearest = met;
-  }
-  if (nearest == list_.end()) {
-    list_.erase(std::remove_if(first(), list_.end(), is_start), list_.end());
-    return true;
-  }
-  Crossing moved = *nearest;
-  const bool was_ahead = moved.t > 0;
-  list_.erase(nearest);
-  if (was_ahead) return true;
-  const Vec3 size = mesh_.bounds().upper - mesh_.bounds().lower;
-  moved.t = unit_roundoff * largest_component(size) / largest_component(ray_.direction);
-  moved.t_low = 0;
-  moved.error = moved.t;
-  list_.push_back(moved);
-  sort();
-  return true;
-}
-
-/// Returns the crossing that rounding may have put behind another one, whose turn it is not. There
-/// is none where triangles plainly come in this order, as they pass through one another, and where
-/// normals say nothing.
-MetTriangles::Place MetTriangles::put_behind(Place met) const {
-  if (!mesh_.is_oriented() || starts_on(met->face)) return list_.end();
-  for (auto later = met + 1; later != list_.end(); ++later) {
-    if (later->t - later->error > met->t + met->error) break;
-    if (later->entering != met->entering) return starts_on(later->face) ? list_.end() : later;
-  }
-  return list_.end();
-}
-
-/// Makes the line enter and leave by turns. Where triangles nearly coincide, rounding may have put
-/// the end of a part before its begin. Such a part is left out, as is one of no length.
-void MetTriangles::take_turns() {
-  bool inside = is_inside_at_begin();
-  for (auto met = first(); met != list_.end();) {
-    if (met->entering == inside) {
-      const auto later = put_behind(met);
-      if (later != list_.end()) {
-        list_.erase(later);
-        met = list_.erase(met);
-        continue;
-      }
-      met->entering = !inside;
-    }
-    inside = !inside;
-    ++met;
-  }
-}
-
-}  // namespace
 
 bool is_alone(const Crossing& crossing, std::span<const Crossing> all) {
   return std::none_of(all.begin(), all.end(), [&](const Crossing& other) {
@@ -379,7 +31,12 @@ bool is_alone(const Crossing& crossing, std::span<const Crossing> all) {
 
 bool append_crossings(const MeshTriangles& mesh, PassingLine& line, const MeshTier& tier,
                       CrossingList& out) {
-  return MetTriangles(mesh, line, tier, out).append();
+  return append_met_triangles(mesh, line, tier, out);
+}
+
+bool standard_crossings(const MeshTriangles& mesh, const ObjectRay& ray, CrossingList& out) {
+  PassingLine line(ray);
+  return append_crossings(mesh, line, StandardMeshTier(ray), out);
 }
 
 }  // namespace crt::core

@@ -5,8 +5,12 @@
 #include <span>
 
 #include "core/geometry/mesh/passing_line.hpp"
-#include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/geometry/triangle/triangle.hpp"
+
+namespace crt {
+class MeshTriangles;
+}
 
 namespace crt::core {
 
@@ -24,6 +28,30 @@ class MeshTier {
   /// Returns the sign of the first t less the second, and 0 if they are equal.
   virtual int order(const Crossing& first, const Crossing& second) const = 0;
 };
+
+/// A StandardMeshTier meets planes in rounded arithmetic.
+class StandardMeshTier final : public MeshTier {
+ public:
+  explicit StandardMeshTier(const ObjectRay& ray);
+
+  bool meet(const Triangle& triangle, Crossing& crossing) const override;
+  int order(const Crossing& first, const Crossing& second) const override;
+
+ private:
+  ObjectRay ray_;  ///< without where it starts
+};
+
+/// Returns more than the distance of a crossing's t from where it is, with t_low and the rounding
+/// of a sum with it.
+inline double reach_of(const Crossing& crossing) {
+  return crossing.error + 4 * rounding_of(crossing.t);
+}
+inline double lowest(const Crossing& crossing) {
+  return crossing.t - reach_of(crossing);
+}
+inline double highest(const Crossing& crossing) {
+  return crossing.t + reach_of(crossing);
+}
 
 /// Returns whether no other of some crossings can be where this one is, whatever their errors.
 bool is_alone(const Crossing& crossing, std::span<const Crossing> all);

@@ -81,24 +81,6 @@ PlaneKey plane_key(const Triangle& triangle, std::uint32_t number) {
   return {CanonicalPlane::of(normal, dot(normal, {corner.x, corner.y, corner.z})), number};
 }
 
-/// Returns whether a triangle lies in the plane of another, without rounding.
-bool is_in_plane(const Triangle& triangle, const Triangle& of_plane) {
-  const Vec3* const corners[] = {&triangle.a, &triangle.b, &triangle.c};
-  const auto shares_coordinate = [&](int axis) {
-    const double place = of_plane.a[axis];
-    return of_plane.b[axis] == place && of_plane.c[axis] == place &&
-           std::all_of(std::begin(corners), std::end(corners),
-                       [&](const Vec3* corner) { return (*corner)[axis] == place; });
-  };
-  if (shares_coordinate(0) || shares_coordinate(1) || shares_coordinate(2)) return true;
-  const DyadicVector origin = exactly(of_plane.a);
-  const DyadicVector normal = exact_normal(of_plane.a, of_plane.b, of_plane.c);
-  return std::all_of(std::begin(corners), std::end(corners), [&](const Vec3* corner) {
-    return *corner == of_plane.a || *corner == of_plane.b || *corner == of_plane.c ||
-           dot(normal, exactly(*corner) - origin).sign() == 0;
-  });
-}
-
 }  // namespace
 
 MeshTriangles::MeshTriangles(std::span<const Vec3> positions,

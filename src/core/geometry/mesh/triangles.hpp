@@ -75,6 +75,49 @@ class MeshTriangles {
   /// of the last.
   core::TriangleLanes placed_corners(std::uint32_t first, std::uint32_t count) const;
 
+  /// Returns whether a triangle lies in the plane of a face.
+  bool are_in_one_plane(const Placed& triangle, std::uint32_t face) const {
+    return triangle.plane.first == plane_of(face).first;
+  }
+  bool are_in_one_plane(std::uint32_t one, std::uint32_t other) const {
+    return plane_of(one).first == plane_of(other).first;
+  }
+  /// Returns whether the normals of two faces in one plane are opposite.
+  bool are_opposite(std::uint32_t one, std::uint32_t other) const {
+    return plane_of(one).turned != plane_of(other).turned;
+  }
+  core::Facing facing_of(const Placed& triangle) const { return triangle.plane.faces(); }
+  /// Returns the corners of the first triangle in a triangle's plane.
+  Triangle corners_of_plane(std::uint32_t number) const { return triangle(plane_of(number).first); }
+  /// Returns these for a triangle of which the own corners are known.
+  Triangle corners_of_plane(const Placed& placed, const Triangle& own) const {
+    return placed.plane.first == placed.number ? own : triangle(placed.plane.first);
+  }
+
+  // This is how a line walks through the tree.
+  using Child = core::BvhChild;
+  using Slabs = core::GridSlabs;
+  using Item = Placed;
+  /// A Leaf has some of placed().
+  class Leaf {
+   public:
+    Leaf(const MeshTriangles& mesh, core::BvhChild place) : mesh_(mesh), place_(place) {}
+    std::uint32_t count() const { return place_.count(); }
+    core::TriangleLanes corners() const { return mesh_.placed_corners(place_.index(), count()); }
+    const Placed& item(std::uint32_t i) const { return mesh_.placed_[place_.index() + i]; }
+
+   private:
+    const MeshTriangles& mesh_;
+    core::BvhChild place_;
+  };
+  core::BvhChild root() const { return core::BvhChild::node(0); }
+  Leaf leaf(core::BvhChild child) const { return {*this, child}; }
+  template <class Meet>
+  void visit(core::BvhChild node, const core::GridSlabs& slabs, const core::LineSpan& part,
+             const Meet& meet) const {
+    tree_.visit(node.index(), slabs, part, meet);
+  }
+
   bool is_closed() const { return fault_.empty(); }
   /// Returns whether each edge is used as often in one direction as in the other. The normals then
   /// point out of the solid, unless triangles pass through one another.

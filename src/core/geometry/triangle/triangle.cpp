@@ -1,5 +1,7 @@
 #include "core/geometry/triangle/triangle.hpp"
 
+#include <algorithm>
+
 #include "core/geometry/checks.hpp"
 #include "core/geometry/exact_plane.hpp"
 #include "core/math/vector.hpp"
@@ -182,6 +184,23 @@ template void TriangleShape::write_point<Lanes>(const VectorLanes&, const Vector
 
 bool has_area(const Triangle& triangle) {
   return largest_component(rounded(precise_normal_of(triangle))) != 0;
+}
+
+bool is_in_plane(const Triangle& triangle, const Triangle& of_plane) {
+  const Vec3* const corners[] = {&triangle.a, &triangle.b, &triangle.c};
+  const auto shares_coordinate = [&](int axis) {
+    const double place = of_plane.a[axis];
+    return of_plane.b[axis] == place && of_plane.c[axis] == place &&
+           std::all_of(std::begin(corners), std::end(corners),
+                       [&](const Vec3* corner) { return (*corner)[axis] == place; });
+  };
+  if (shares_coordinate(0) || shares_coordinate(1) || shares_coordinate(2)) return true;
+  const DyadicVector origin = exactly(of_plane.a);
+  const DyadicVector normal = exact_normal(of_plane.a, of_plane.b, of_plane.c);
+  return std::all_of(std::begin(corners), std::end(corners), [&](const Vec3* corner) {
+    return *corner == of_plane.a || *corner == of_plane.b || *corner == of_plane.c ||
+           dot(normal, exactly(*corner) - origin).sign() == 0;
+  });
 }
 
 void validate(const Triangle& triangle) {

@@ -59,6 +59,9 @@ void write_weights(const Triangle& triangle, const Vec3Of<Real>& relative, Real&
 /// Returns whether the corners are not on one line.
 bool has_area(const Triangle& triangle);
 
+/// Returns whether a triangle lies in the plane of another, without rounding.
+bool is_in_plane(const Triangle& triangle, const Triangle& of_plane);
+
 void validate(const Triangle& triangle);
 inline bool is_solid(const Triangle&) {
   return false;
