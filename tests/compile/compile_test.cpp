@@ -235,7 +235,6 @@ TEST_CASE("a bounding box holds all that rays meet of an entity") {
 }
 
 TEST_CASE("bounding boxes are empty or infinite where entities are, and narrow where CSG cuts") {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const BoundingBox nothing = bounding_box(empty_entity());
   CHECK(nothing.lower == Vec3(infinity));
   CHECK(nothing.upper == Vec3(-infinity));

@@ -12,7 +12,6 @@ using namespace crt::core;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr LineSpan whole_line = {-infinity, infinity};
 

@@ -16,7 +16,6 @@ using crt::test::Random;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<Bounds> random_boxes(Random& random, std::size_t count, double scale) {
   std::vector<Bounds> boxes;

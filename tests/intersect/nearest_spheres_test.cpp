@@ -22,7 +22,6 @@ using namespace crt::test;
 namespace {
 
 constexpr std::uint64_t seed = 20261124;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A Room is where a crowd is, and how large: up to that far from its middle.
 struct Room {

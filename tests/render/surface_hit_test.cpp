@@ -149,7 +149,6 @@ TEST_CASE("what a path through a medium leaves of light is right at all lengths"
     const PreparedMaterial medium(Material{.absorption = absorption}, textures);
     return transmittance(medium, length);
   };
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Rgb some = left({0.5, 3, 1e-3}, 0.75);
   CHECK(some.x == doctest::Approx(std::exp(-0.375)).epsilon(1e-15));
   CHECK(some.y == doctest::Approx(std::exp(-2.25)).epsilon(1e-15));

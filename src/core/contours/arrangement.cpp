@@ -12,7 +12,6 @@ namespace crt::core {
 
 Arrangement::Arrangement(std::span<const Contour* const> contours, Budget& budget)
     : contours_(contours), budget_(budget) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec2 lower(infinity, infinity);
   Vec2 upper = -lower;
   for (const Contour* contour : contours) {

@@ -16,7 +16,6 @@ constexpr double largest_bulge = 0.5;
 /// the curve. It is infinite where there is none. The curve must begin and end on the radii of the
 /// arc's ends.
 double distance_bound(const Cubic& curve, const Vec2& from, const Vec2& to, double bulge) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Vec2 chord = to - from;
   const double length = glm::length(chord);
   if (!(length > 0)) return infinity;

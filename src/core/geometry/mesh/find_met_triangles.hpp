@@ -36,7 +36,6 @@ class MetTriangles {
   using Leaf = typename Triangles::Leaf;
   using Item = typename Triangles::Item;
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   /// A TreePart is still to be looked at.
   struct TreePart {
