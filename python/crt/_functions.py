@@ -166,6 +166,14 @@ FUNCTIONS = {
         "const double to[3]",
         "crt_entity** out",
     ),
+    "crt_revolution_create": (
+        "crt_status",
+        "const crt_profile* profile",
+        "const double from[3]",
+        "const double to[3]",
+        "double angle",
+        "crt_entity** out",
+    ),
     "crt_empty_create": ("crt_status", "crt_entity** out"),
     "crt_union_create": (
         "crt_status",

@@ -272,6 +272,38 @@ TEST_CASE("lines enter and leave revolutions by turns, also through corners and 
   CHECK(hits > 10000);
 }
 
+TEST_CASE("lines find all walls that they cross among a thousand") {
+  Contour wave = {{0, 0}};
+  for (int i = 0; i <= 1000; ++i) {
+    const double height = 0.005 * i;
+    wave.push_back({2 + 0.5 * std::sin(40 * height), height, i % 3 == 0 ? 0.4 : 0.0});
+  }
+  wave.push_back({0, 5});
+  const Revolution revolution{.profile = profile_of({wave}), .angle = 4};
+  const auto shape = core::make_shape(revolution);
+  const Subject subject = subject_of(revolution, 5);
+  Random random(8);
+  std::size_t most = 0;
+  for (int i = 0; i < 300; ++i) {
+    core::ObjectRay ray = plain_ray(random);
+    ray.origin.y += random.uniform(0, 5);
+    const core::CrossingList list = crossings(*shape, ray);
+    check_turns(*shape, ray, list);
+    check_inside(subject, ray, list);
+    most = std::max(most, list.size());
+  }
+  // Along the side there are many waves.
+  for (int i = 0; i < 20; ++i) {
+    const core::ObjectRay ray{.origin = {2 + random.uniform(-0.4, 0.4), -1, 0.01},
+                              .direction = {0, 1, random.uniform(-0.01, 0.01)}};
+    const core::CrossingList list = crossings(*shape, ray);
+    check_turns(*shape, ray, list);
+    check_inside(subject, ray, list);
+    most = std::max(most, list.size());
+  }
+  CHECK(most > 40);
+}
+
 TEST_CASE("lines along walls and through corners are inside where all around them is") {
   // A cylinder of two rectangles that share a wall, with a corner halfway up.
   const Contour inner = rectangle(0, 0, 1, 4);

@@ -66,8 +66,8 @@ class TurnedWalls {
   }
   void add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts, bool along_normal);
   bool meet_plainly();
-  bool meet_wall(std::uint32_t number, bool& is_plain);
-  bool is_in_wall(const Profile::Piece& piece, const Crossing& crossing, bool& is_plain) const;
+  bool meet_wall(std::uint32_t number);
+  std::optional<bool> is_in_wall(const Profile::Piece& piece, const Crossing& crossing) const;
   PlaceInProfile place_of(const Profile::Piece& piece, const Crossing& crossing) const;
   void meet_ends();
   void meet_exactly();
@@ -75,6 +75,7 @@ class TurnedWalls {
   int order(const Crossing& a, const Crossing& b) const;
   void sort_by_place();
   void append_parts();
+  void drop_if_endless();
   bool is_between_ends() const;
   const TurnedWall& chosen(Walls::const_iterator begin, Walls::const_iterator end,
                            bool entering) const;
@@ -124,18 +125,17 @@ void TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask sh
 
 /// Finds the crossings with all walls. Returns false if rounding leaves one of them open.
 bool TurnedWalls::meet_plainly() {
-  bool is_plain = true;
   bool is_even = true;
   for (const std::uint32_t piece : candidates_) {
     const std::size_t before = walls_.size();
-    if (!meet_wall(piece, is_plain)) return false;
+    if (!meet_wall(piece)) return false;
     is_even = is_even == ((walls_.size() - before) % 2 == 0);
   }
   return is_even;
 }
 
 /// Finds the crossings with a piece, or with its arc. Returns false if rounding leaves them open.
-bool TurnedWalls::meet_wall(std::uint32_t number, bool& is_plain) {
+bool TurnedWalls::meet_wall(std::uint32_t number) {
   const Profile::Piece& piece = profile_.pieces()[number];
   if (piece.arc == Profile::no_arc && TurnedProfile::is_on_axis(piece)) return true;
   const std::uint32_t body = end_count + number;
@@ -143,14 +143,11 @@ bool TurnedWalls::meet_wall(std::uint32_t number, bool& is_plain) {
   met_.clear();
   tier_.meet(body, start, met_);
   for (const Crossing& crossing : met_) {
-    const bool is_in = is_in_wall(piece, crossing, is_plain);
     // A ray that starts on a face starts on no other that is on the same surface.
     const bool is_start = start.face != no_face && is_at_start(crossing) && ray_.start.on_face;
-    if (is_start ? start.on_face : is_in) {
-      add(crossing, face_of_wall(number, false), both_shifts, !crossing.entering);
-    }
-    if (!is_plain && !is_start) return false;
-    is_plain = true;
+    const std::optional<bool> is_in = is_start ? start.on_face : is_in_wall(piece, crossing);
+    if (!is_in) return false;
+    if (*is_in) add(crossing, face_of_wall(number, false), both_shifts, !crossing.entering);
   }
   return true;
 }
@@ -165,29 +162,29 @@ PlaceInProfile TurnedWalls::place_of(const Profile::Piece& piece, const Crossing
           .error = filter_rounding * size + 2 * crossing.error * largest_component(ray_.direction)};
 }
 
-/// Returns whether a crossing with the body of a wall is in the wall.
-bool TurnedWalls::is_in_wall(const Profile::Piece& piece, const Crossing& crossing,
-                             bool& is_plain) const {
+/// Returns whether a crossing with the body of a wall is in the wall, or nothing if rounding leaves
+/// that open.
+std::optional<bool> TurnedWalls::is_in_wall(const Profile::Piece& piece,
+                                            const Crossing& crossing) const {
   const PlaceInProfile place = place_of(piece, crossing);
   const Vec3 along = piece.to - piece.from;
-  const auto is_near = [&](double a, double b) { return std::abs(a - b) <= place.error; };
+  const auto if_plain = [](bool is_plain, bool is_in) {
+    return is_plain ? std::optional(is_in) : std::nullopt;
+  };
+  const auto is_off = [&](double a, double b) { return std::abs(a - b) > place.error; };
   if (piece.arc != Profile::no_arc) {
     const double left = along.x * place.y - along.y * (place.x - piece.from.x);
-    is_plain = std::abs(left) > 2 * place.error * (std::abs(along.x) + std::abs(along.y));
-    return (left < 0) == profile_.arcs()[piece.arc].is_right;
+    const double error = 2 * place.error * (std::abs(along.x) + std::abs(along.y));
+    return if_plain(std::abs(left) > error, (left < 0) == profile_.arcs()[piece.arc].is_right);
   }
   if (along.y == 0) {
-    is_plain = !is_near(place.x, piece.from.x) && !is_near(place.x, piece.to.x);
-    return (place.x < piece.from.x) != (place.x < piece.to.x);
+    return if_plain(is_off(place.x, piece.from.x) && is_off(place.x, piece.to.x),
+                    (place.x < piece.from.x) != (place.x < piece.to.x));
   }
-  if (crossing.face == 0) {
-    is_plain = !is_near(place.y, 0) && !is_near(place.y, along.y);
-    return true;
-  }
+  if (crossing.face == 0) return if_plain(is_off(place.y, 0) && is_off(place.y, along.y), true);
   // The line passes a corner inside, through the cap of a cone.
   const bool is_at_begin = std::abs(place.y) < std::abs(place.y - along.y);
-  is_plain = !is_near(place.x, is_at_begin ? piece.from.x : piece.to.x);
-  return false;
+  return if_plain(is_off(place.x, is_at_begin ? piece.from.x : piece.to.x), false);
 }
 
 void TurnedWalls::meet_ends() {
@@ -270,6 +267,12 @@ const TurnedWall& TurnedWalls::chosen(Walls::const_iterator begin, Walls::const_
   return first != end ? *first : *begin;
 }
 
+/// Drops the last part of the line if t is beyond all doubles at one of its ends.
+void TurnedWalls::drop_if_endless() {
+  const auto part = out_.end() - 2;
+  if (!std::isfinite(part->t) || !std::isfinite((part + 1)->t)) out_.erase(part, out_.end());
+}
+
 /// Follows the line from place to place. It is in the profile where both lines are that pass no
 /// corner. What they cross in one place changes it at once.
 void TurnedWalls::append_parts() {
@@ -290,10 +293,12 @@ void TurnedWalls::append_parts() {
       if (!starts_on(crossing.face)) bound_beside(walls_, group, end, largest_error_, crossing);
       if (wall.shifts != 0 && wall.along_normal == is_inside) ++crossing.face;
       out_.push_back(crossing);
+      if (!is_inside) drop_if_endless();
     }
     was_inside = is_inside;
     group = end;
   }
+  // What a start on a surface changes may leave a part open.
   if (out_.size() % 2 != before % 2) out_.pop_back();
 }
 
