@@ -1,5 +1,5 @@
-// A script may reach these files: imports, images and meshes, in its own directory and those that
-// the caller lists, and nowhere else.
+// A script may reach these files: imports, images, meshes and fonts, in its own directory and those
+// that the caller lists, and nowhere else.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include "crt/entity.hpp"
 #include "crt/image.hpp"
 #include "crt/script.hpp"
+#include "crt/text.hpp"
 #include "lang/reporter.hpp"
 #include "lang/source_map.hpp"
 
@@ -50,6 +51,10 @@ class Files {
   std::shared_ptr<const Entity> mesh(const std::string& name,
                                      const std::filesystem::path& directory, Span span);
 
+  /// Returns a font, which is read once a run.
+  std::shared_ptr<const Font> font(const std::string& name, const std::filesystem::path& directory,
+                                   Span span);
+
  private:
   std::vector<std::filesystem::path> candidates(const std::string& name,
                                                 const std::filesystem::path& directory) const;
@@ -60,6 +65,7 @@ class Files {
   std::filesystem::path script_directory_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
   std::map<std::filesystem::path, std::shared_ptr<const Entity>> meshes_;
+  std::map<std::filesystem::path, std::shared_ptr<const Font>> fonts_;
 };
 
 /// Returns the whole of a regular file, or nothing if it cannot be read or has more than

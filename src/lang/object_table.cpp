@@ -11,6 +11,7 @@
 #include "lang/failure.hpp"
 #include "lang/no_size.hpp"
 #include "lang/object_builder.hpp"
+#include "lang/text_object.hpp"
 
 namespace crt::lang {
 
@@ -84,6 +85,7 @@ std::vector<ObjectType> entities() {
                          {required("file", &MeshOfFile::file),
                           attribute("material", &MeshOfFile::material, "a grey of 0.5")},
                          finish_mesh),
+      text_object(),
   };
 }
 

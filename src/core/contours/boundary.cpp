@@ -14,7 +14,7 @@ namespace {
 
 [[noreturn]] void refuse_touching() {
   throw Error(ErrorCode::unsupported,
-              "contours touch so closely that the nonzero rule cannot be told apart from rounding: "
+              "contours touch so closely that rounding decides what the nonzero rule fills: "
               "use the even-odd rule, or draw them as several");
 }
 
