@@ -5,6 +5,7 @@ find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(EXPAT REQUIRED)
+find_package(Freetype REQUIRED) # its headers alone: the library is loaded with the first font
 
 # This takes Embree 4 if it is installed, else 3. src/core/accel/ compiles with both.
 find_package(embree 4 QUIET)

@@ -32,6 +32,8 @@ added, subtracted and intersected) without cutting them into triangles.")
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${runtime_package})
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+# Text loads it with the first font, which dpkg-shlibdeps cannot see.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS libfreetype6)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "ray tracer of analytic solids: library with a C interface
 ${about}
 .
@@ -56,6 +58,7 @@ ${about}
 This package has the command crt, which renders scenes written in CRT's own
 small language to image files.")
 
+file(READ ${PROJECT_SOURCE_DIR}/share/fonts/LICENSE.Liberation font_licence)
 # Each Debian package has a file with its licence. Only Debian wants it.
 file(WRITE ${PROJECT_BINARY_DIR}/package/copyright
 "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
@@ -66,7 +69,10 @@ Copyright: The CRT authors
 License: Apache-2.0
  On Debian systems the text of the Apache License, version 2.0, is in
  /usr/share/common-licenses/Apache-2.0.
-")
+
+The libraries hold the font Liberation Sans, for which this is said:
+
+${font_licence}")
 foreach(component runtime development command)
   string(TOUPPER ${component} name)
   install(FILES ${PROJECT_BINARY_DIR}/package/copyright

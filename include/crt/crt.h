@@ -622,6 +622,31 @@ typedef enum crt_fill_rule {
 CRT_API crt_status crt_profile_svg_path(crt_profile* profile, const char* path, size_t length,
                                         int32_t fill, double deviation);
 
+/** Lists where lines of text are, from x = 0 on. */
+typedef enum crt_text_alignment {
+  CRT_TEXT_LEFT = 0, /**< lines begin there */
+  CRT_TEXT_CENTER,   /**< lines have their middle there */
+  CRT_TEXT_RIGHT     /**< lines end there */
+} crt_text_alignment;
+/**
+ * Adds the contours of text. The first line stands on y = 0, and others are below it. Pairs of
+ * letters come closer where the font has a kern table. There are no ligatures, and letters follow
+ * one another from left to right. A letter that the font lacks is the box that it has for that.
+ * The library of FreeType is loaded when this is first called: without it, this is
+ * CRT_ERROR_UNSUPPORTED. Begin a contour by crt_profile_move_to() before you add further pieces.
+ * @param text          `length` bytes of UTF-8, with lines ended by "\n"
+ * @param font          the path of a font file; NULL for the library's own, Liberation Sans
+ * @param size          the size of the em, above 0; capital letters are about 0.7 of it high
+ * @param alignment     a crt_text_alignment
+ * @param line_spacing  the distance of lines as a multiple of what the font says; usually 1
+ * @param deviation     as for crt_profile_cubic_to(); with 0 each curve has the default for its
+ *                      size
+ * @param missing       gets how many different letters the font lacks; may be NULL
+ */
+CRT_API crt_status crt_profile_text(crt_profile* profile, const char* text, size_t length,
+                                    const char* font, double size, int32_t alignment,
+                                    double line_spacing, double deviation, size_t* missing);
+
 /** Tells how many contours a profile has. */
 CRT_API crt_status crt_profile_contour_count(const crt_profile* profile, size_t* count);
 /**

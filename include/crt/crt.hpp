@@ -23,6 +23,7 @@
 #include <crt/settings.hpp>
 #include <crt/stats.hpp>
 #include <crt/svg_path.hpp>
+#include <crt/text.hpp>
 #include <crt/transform.hpp>
 #include <crt/validate.hpp>
 #include <crt/vec.hpp>

@@ -40,7 +40,7 @@ from .primitives import (
     Triangle,
     load_mesh,
 )
-from .profiles import svg_path
+from .profiles import svg_path, text_contours
 from .rays import BACKFACE, ENTERING, HIT, HIT_PART, NO_ENTITY, RAY, camera_rays, ray, rays
 from .rendering import Prepared
 from .scenes import Scene
@@ -123,6 +123,7 @@ __all__ = [
     "ray",
     "rays",
     "svg_path",
+    "text_contours",
     "union",
     "version",
 ]

@@ -150,6 +150,18 @@ FUNCTIONS = {
         "int32_t fill",
         "double deviation",
     ),
+    "crt_profile_text": (
+        "crt_status",
+        "crt_profile* profile",
+        "const char* text",
+        "size_t length",
+        "const char* font",
+        "double size",
+        "int32_t alignment",
+        "double line_spacing",
+        "double deviation",
+        "size_t* missing",
+    ),
     "crt_profile_contour_count": ("crt_status", "const crt_profile* profile", "size_t* count"),
     "crt_profile_contour": (
         "crt_status",

@@ -2,6 +2,8 @@
 (x, y, bulge), for crt.Extrusion and for what else takes a profile."""
 
 import ctypes
+import os
+import warnings
 from typing import Any, SupportsFloat
 
 from . import _arguments
@@ -9,7 +11,7 @@ from ._handles import Reference
 from ._library import create, library
 from .errors import named
 
-__all__ = ["svg_path"]
+__all__ = ["svg_path", "text_contours"]
 
 Contour = list[tuple[float, float, float]]
 
@@ -24,6 +26,43 @@ def svg_path(path: str, *, even_odd: bool = False, deviation: SupportsFloat = 0)
     handle = _new_profile()
     with named("svg_path"):
         library.crt_profile_svg_path(handle, text, len(text), int(bool(even_odd)), within)
+    return _contours_of(handle)
+
+
+_ALIGNMENTS = ("left", "center", "right")  # as crt_text_alignment has them
+
+
+def text_contours(
+    text: str,
+    size: SupportsFloat = 1,
+    *,
+    font: str | os.PathLike[str] | None = None,
+    alignment: str = "left",
+    line_spacing: SupportsFloat = 1,
+    deviation: SupportsFloat = 0,
+) -> list[Contour]:
+    """Returns the contours of text. Its first line stands on y = 0, and x = 0 is where lines begin,
+    have their middle or end. `size` is that of the em; capital letters are about 0.7 of it high.
+    `font` is a font file, or by default Liberation Sans, which comes with the library. Letters that
+    the font lacks give a warning, and are the box that it has for that."""
+    if alignment not in _ALIGNMENTS:
+        names = ", ".join(map(repr, _ALIGNMENTS))
+        raise ValueError(f"text_contours: alignment must be one of {names}, not {alignment!r}")
+    if not isinstance(text, str):
+        raise _arguments.refusal("text_contours: text", "a text", text)
+    content = text.encode(errors="surrogatepass")
+    file = None if font is None else _arguments.text(font, "text_contours: font")
+    given = {"size": size, "line_spacing": line_spacing, "deviation": deviation}
+    numbers = [_arguments.number(given[name], f"text_contours: {name}") for name in given]
+    handle = _new_profile()
+    missing = ctypes.c_size_t()
+    with named("text_contours"):
+        library.crt_profile_text(
+            handle, content, len(content), file, numbers[0], _ALIGNMENTS.index(alignment),
+            *numbers[1:], ctypes.byref(missing)
+        )
+    if missing.value:
+        warnings.warn(f"text_contours: the font lacks {missing.value} of the letters", stacklevel=2)
     return _contours_of(handle)
 
 

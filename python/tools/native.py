@@ -11,6 +11,7 @@ then the one that knows PNG alone.
     crt/_native/licenses/                and their licences
 """
 
+import ctypes
 import hashlib
 import os
 import pathlib
@@ -26,6 +27,8 @@ PLATFORM = re.compile(
     r"ld-linux.*|lib(c|m|dl|pthread|rt|stdc\+\+|gcc_s|z)\.so\..*|linux-vdso\.so\..*"
 )
 LOADED_BY_NAME = {"libtbb.so.12": "libtbbmalloc.so.2"}  # by TBB itself, from beside it
+
+FREE_TYPE = "libfreetype.so.6"
 
 
 def built(build_tree: str | None) -> pathlib.Path:
@@ -59,11 +62,28 @@ def put(libraries: pathlib.Path, package: pathlib.Path, bundle: bool) -> None:
             continue  # there was no libpng
         target.parent.mkdir(parents=True, exist_ok=True)
         _copy_stripped(source, target)
+    licences = native / "licenses"
+    licences.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(SOURCE / "share/fonts/LICENSE.Liberation", licences / "LiberationSans.txt")
     if bundle:
         found: dict[str, str] = {}
         for file in (native / "libcrt.so.1", native / "crt/crt_image_files.so"):
             if file.exists():
                 _bundle(file, native, found)
+        _bring_along(FREE_TYPE, native, found)
+
+
+def _bring_along(name: str, native: pathlib.Path, found: dict[str, str]) -> None:
+    """Copies a library that libcrt loads by its name when it is needed, and what that links."""
+    try:
+        ctypes.CDLL(name)
+    except OSError:
+        return  # the system that the wheel runs on may have it
+    maps = pathlib.Path("/proc/self/maps").read_text()
+    (library,) = {pathlib.Path(place) for place in re.findall(rf"(/\S*/{name}\S*)$", maps, re.M)}
+    _copy_stripped(library, native / name)
+    _add_licence(library, native / "licenses")
+    _bundle(native / name, native, found)
 
 
 def _copy_stripped(source: pathlib.Path, target: pathlib.Path) -> None:

@@ -4,6 +4,7 @@
 #include "capi/structs.hpp"
 #include "crt/curves.hpp"
 #include "crt/svg_path.hpp"
+#include "crt/text.hpp"
 
 namespace crt::capi {
 
@@ -81,6 +82,24 @@ crt_status crt_profile_svg_path(crt_profile* profile, const char* path, size_t l
     std::vector<crt::Contour> contours =
         crt::svg_path_contours({path, length}, {.fill = rule, .deviation = deviation});
     add_contours(*profile, std::move(contours));
+  });
+}
+
+crt_status crt_profile_text(crt_profile* profile, const char* text, size_t length, const char* font,
+                            double size, int32_t alignment, double line_spacing, double deviation,
+                            size_t* missing) {
+  return guarded([&] {
+    require(profile, "profile");
+    require(text, "text");
+    const crt::TextLayout layout{.size = size,
+                                 .alignment = to_enum(alignment, crt::TextAlignment::right,
+                                                      "alignment", "crt_text_alignment"),
+                                 .line_spacing = line_spacing,
+                                 .options = {.deviation = deviation}};
+    const auto used = font == nullptr ? crt::standard_font() : crt::read_font(font);
+    crt::TextContours made = crt::text_contours({text, length}, *used, layout);
+    add_contours(*profile, std::move(made.contours));
+    if (missing != nullptr) *missing = made.missing_letters.size();
   });
 }
 

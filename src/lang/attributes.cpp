@@ -277,6 +277,19 @@ void convert(const Given& given, Context& context, std::shared_ptr<const Profile
   field = make_profile(contours);
 }
 
+void convert(const Given& given, Context& context, std::shared_ptr<const Font>& field) {
+  const std::string& name = get<String>(given)->text;
+  const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
+  field = context.files.font(name, directory, given.value_span);
+}
+
+void convert(const Given& given, Context&, TextAlignment& field) {
+  using enum TextAlignment;
+  using Choice = std::pair<std::string_view, TextAlignment>;
+  choose(given, std::array{Choice{"left", left}, Choice{"center", center}, Choice{"right", right}},
+         field);
+}
+
 void convert(const Given& given, Context&, Projection& field) {
   using enum Projection;
   using Choice = std::pair<std::string_view, Projection>;

@@ -16,6 +16,7 @@
 #include "crt/material.hpp"
 #include "crt/primitives.hpp"
 #include "crt/settings.hpp"
+#include "crt/text.hpp"
 #include "lang/context.hpp"
 #include "lang/objects.hpp"
 
@@ -44,6 +45,8 @@ void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
 void convert(const Given& given, Context& context, FileName& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field);
+void convert(const Given& given, Context& context, std::shared_ptr<const Font>& field);
+void convert(const Given& given, Context& context, TextAlignment& field);
 void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
@@ -109,6 +112,12 @@ constexpr std::string_view type_text(const FileName*) {
 }
 constexpr std::string_view type_text(const std::shared_ptr<const Profile>*) {
   return "List of corners";
+}
+constexpr std::string_view type_text(const std::shared_ptr<const Font>*) {
+  return "String";
+}
+constexpr std::string_view type_text(const TextAlignment*) {
+  return "String";
 }
 constexpr std::string_view type_text(const Projection*) {
   return "String";

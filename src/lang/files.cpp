@@ -204,6 +204,21 @@ std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::pat
   }
 }
 
+std::shared_ptr<const Font> Files::font(const std::string& name, const fs::path& directory,
+                                        Span span) {
+  const Found found = find(name, directory, span);
+  std::shared_ptr<const Font>& font = fonts_[found.path];
+  if (!font) {
+    try {
+      font = found.content ? decode_font(*found.content, found.shown.string())
+                           : read_font(found.shown);
+    } catch (const Error& error) {
+      throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
+    }
+  }
+  return font;
+}
+
 std::optional<std::string> read_regular_file(const fs::path& path, std::size_t most_bytes) {
   std::error_code failed;
   if (!fs::is_regular_file(path, failed)) return std::nullopt;

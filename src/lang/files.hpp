@@ -1,5 +1,5 @@
-// A script may reach these files: imports, images and meshes, in its own directory and those that
-// the caller lists, and nowhere else.
+// A script may reach these files: imports, images, meshes and fonts, in its own directory and those
+// that the caller lists, and nowhere else.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include "crt/entity.hpp"
 #include "crt/image.hpp"
 #include "crt/script.hpp"
+#include "crt/text.hpp"
 #include "lang/reporter.hpp"
 #include "lang/source_map.hpp"
 
@@ -52,6 +53,10 @@ class Files {
                                      const std::filesystem::path& directory, Span span,
                                      std::optional<double> smooth, Reporter* reporter);
 
+  /// Returns a font, which is read once a run.
+  std::shared_ptr<const Font> font(const std::string& name, const std::filesystem::path& directory,
+                                   Span span);
+
  private:
   std::vector<std::filesystem::path> candidates(const std::string& name,
                                                 const std::filesystem::path& directory) const;
@@ -65,6 +70,7 @@ class Files {
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
   using SmoothMeshes = std::map<std::optional<double>, std::shared_ptr<const Entity>>;
   std::map<std::filesystem::path, SmoothMeshes> meshes_;
+  std::map<std::filesystem::path, std::shared_ptr<const Font>> fonts_;
 };
 
 /// Returns the whole of a regular file, or nothing if it cannot be read or has more than

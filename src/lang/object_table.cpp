@@ -11,6 +11,7 @@
 #include "lang/failure.hpp"
 #include "lang/no_size.hpp"
 #include "lang/object_builder.hpp"
+#include "lang/text_object.hpp"
 
 namespace crt::lang {
 
@@ -95,6 +96,7 @@ std::vector<ObjectType> entities() {
                                   "must be from 0 to 180 degrees"),
                           attribute("material", &MeshOfFile::material, "as the file has it")},
                          finish_mesh),
+      text_object(),
   };
 }
 

@@ -178,3 +178,36 @@ TEST_CASE("a wrong curve or path changes nothing, and says why") {
   CHECK(crt_profile_svg_path(profile.get(), "M0 0h1v1", 8, CRT_FILL_EVEN_ODD, 0) == CRT_OK);
   refuses(crt_profile_line_to(profile.get(), 1, 1), "crt_profile_move_to");
 }
+
+TEST_CASE("text becomes contours, with a font of one's own or the library's") {
+  const ProfileHandle profile = new_profile();
+  std::size_t missing = 9;
+  const std::string text = "IL\xe6\xbc\xa2";
+  const auto add = [&](const char* font, double size, std::int32_t alignment, double spacing) {
+    return crt_profile_text(profile.get(), text.data(), text.size(), font, size, alignment, spacing,
+                            0, &missing);
+  };
+  CHECK(add(nullptr, 1, CRT_TEXT_CENTER, 1) == CRT_OK);
+  CHECK(missing == 1);
+  std::size_t count = 0;
+  CHECK(crt_profile_contour_count(profile.get(), &count) == CRT_OK);
+  CHECK(count == 4);  // a box has two
+  CHECK(crt_profile_line_to(profile.get(), 1, 1) == CRT_ERROR_INVALID_ARGUMENT);
+  const std::string file = std::string(CRT_SOURCE_DIR) + "/share/fonts/LiberationSans-Regular.ttf";
+  CHECK(add(file.c_str(), 1, CRT_TEXT_LEFT, 1) == CRT_OK);
+  CHECK(crt_profile_contour_count(profile.get(), &count) == CRT_OK);
+  CHECK(count == 8);
+  CHECK(add("no such.ttf", 1, 0, 1) == CRT_ERROR_IO);
+  CHECK(says("no such.ttf"));
+  CHECK(add(nullptr, 0, 0, 1) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("size"));
+  CHECK(add(nullptr, 1, 3, 1) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("alignment"));
+  CHECK(add(nullptr, 1, 0, infinity) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("line_spacing"));
+  CHECK(crt_profile_text(nullptr, "", 0, nullptr, 1, 0, 1, 0, nullptr) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(crt_profile_text(profile.get(), nullptr, 1, nullptr, 1, 0, 1, 0, nullptr) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(crt_profile_text(profile.get(), "", 0, nullptr, 1, 0, 1, 0, nullptr) == CRT_OK);
+}

@@ -154,6 +154,14 @@ TEST_CASE("the place and size of contours do not matter") {
   }
 }
 
+TEST_CASE("a contour that is next to nothing beside another is refused, not left out") {
+  CHECK(nonzero_contours(Contours{rectangle(-1e9, 0, 1e9, 1e9), rectangle(0, -1, 1, 1)}).size() >=
+        1);
+  CHECK_THROWS_WITH_AS(
+      nonzero_contours(Contours{rectangle(-1e15, 0, 1e15, 1e15), rectangle(0, -1, 1, 1)}),
+      doctest::Contains("touch so closely"), Error);
+}
+
 TEST_CASE("many contours take no more than their share of time") {
   std::vector<Contour> apart;
   for (int i = 0; i < 20000; ++i) apart.push_back(circle(3 * (i % 100), 3 * (i / 100), 1));

@@ -122,7 +122,7 @@ TEST_CASE("arcs of circles are single pieces with the circle's center and radius
   REQUIRE(most[0].size() == 3);
   CHECK(most[0][1].x == doctest::Approx(-std::sqrt(0.5)));
   CHECK(most[0][1].y == doctest::Approx(-std::sqrt(0.5)));
-  CHECK(area_of(most) == doctest::Approx(-(0.75 * std::numbers::pi + 0.5)));
+  CHECK(area_of(most) == doctest::Approx(0.75 * std::numbers::pi + 0.5));
 }
 
 TEST_CASE("any arc follows the formulas of SVG") {

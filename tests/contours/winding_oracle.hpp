@@ -42,17 +42,29 @@ struct View {
   bool is_odd() const { return winding % 2 != 0; }
 };
 
-/// Returns the area of what is inside by the even-odd rule, if no contours cross: those within
-/// others must go the other way round.
+/// Returns the area within a contour that does not cross itself.
+inline long double area_within(const Contour& contour) {
+  long double area = 0;
+  for (const ArcPiece& piece : closed_pieces_of(contour)) {
+    area += (piece.from.x * piece.to.y - piece.from.y * piece.to.x) / 2;
+    if (piece.angle == 0) continue;
+    const long double radius = length(piece.from - piece.center);
+    area += radius * radius * (piece.angle - std::sin(piece.angle)) / 2;
+  }
+  return std::fabs(area);
+}
+
+/// Returns the area of what is inside by the even-odd rule, if no contours cross. Those within an
+/// odd number of others are holes.
 inline double area_of(const std::vector<Contour>& contours) {
   long double area = 0;
   for (const Contour& contour : contours) {
-    for (const ArcPiece& piece : closed_pieces_of(contour)) {
-      area += (piece.from.x * piece.to.y - piece.from.y * piece.to.x) / 2;
-      if (piece.angle == 0) continue;
-      const long double radius = length(piece.from - piece.center);
-      area += radius * radius * (piece.angle - std::sin(piece.angle)) / 2;
+    std::vector<Contour> others;
+    for (const Contour& other : contours) {
+      if (&other != &contour) others.push_back(other);
     }
+    const bool is_hole = View(others, closed_pieces_of(contour)[0].at(0.4L)).is_odd();
+    area += is_hole ? -area_within(contour) : area_within(contour);
   }
   return static_cast<double>(area);
 }

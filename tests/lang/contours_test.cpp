@@ -76,3 +76,53 @@ TEST_CASE("a path that takes long to fill ends at the script's limit") {
   options.limits.steps = 3'000'000;
   CHECK(run(script, options).failed_with(ErrorCode::limit));
 }
+
+TEST_CASE("Text is letters drawn out along z") {
+  const auto spans = [](const std::string& attributes, double y) {
+    ScriptOptions options;
+    options.resource_directories = {CRT_SOURCE_DIR "/share/fonts"};
+    const Run done = run("Scene { Text { depth -> 2 " + attributes + " } }", options);
+    INFO(attributes);
+    REQUIRE(done.ok());
+    CHECK(done.messages().empty());
+    std::vector<double> places;
+    for (const Hit& hit : crossings(prepare(*done.result.scene),
+                                    {.origin = {-10000, y, 1.5}, .direction = {1, 0, 0}})) {
+      places.push_back(hit.t - 10000);
+    }
+    return places;
+  };
+  // In 2048ths of the em: an I is from 189 to 380, of 569, and 1409 high.
+  const std::vector<double> letter = spans("text -> \"I\" size -> 2048", 700);
+  REQUIRE(letter.size() == 2);
+  CHECK(letter[0] == doctest::Approx(189));
+  CHECK(letter[1] == doctest::Approx(380));
+  CHECK(spans("text -> \"I\" size -> 2048", 1408).size() == 2);
+  CHECK(spans("text -> \"I\" size -> 2048", 1410).empty());
+  CHECK(spans("text -> \"I\" size -> 2048 alignment -> \"right\"", 700)[0] ==
+        doctest::Approx(189 - 569));
+  CHECK(spans("text -> \"I\\nH\" size -> 2048 linespacing -> 2", 300 - 2 * 2355).size() == 4);
+  CHECK(spans("text -> \"I\" font -> \"/LiberationSans-Regular.ttf\"", 0.5).size() == 2);
+}
+
+TEST_CASE("Text that cannot be is an error, and text with nothing to see a warning") {
+  const auto message = [](const std::string& attributes) {
+    const Run done = run("Scene { Text { " + attributes + " } }");
+    REQUIRE(done.messages().size() == 1);
+    return done.messages()[0];
+  };
+  CHECK(message("text -> \" \" depth -> 1") ==
+        "'text' has nothing to see: what has no size draws nothing");
+  CHECK(message("text -> \"a\" depth -> 0") == "'depth' is 0: what has no size draws nothing");
+  CHECK(message("text -> \"\\u6f22a\\u5b57\\u6f22\" depth -> 1") ==
+        "the font has no letter for 2 characters of 'text': U+6F22, U+5B57");
+  CHECK(message("text -> \"a\" depth -> 1 size -> 0") ==
+        "'size' must be in [1e-90, 1e90] (it is 0)");
+  CHECK(message("text -> \"a\" depth -> 1 linespacing -> 1e5") ==
+        "'linespacing' must be in [-1000, 1000] (it is 100000)");
+  CHECK(message("text -> \"a\" depth -> 1 alignment -> \"middle\"")
+            .find("'alignment' must be \"left\", \"center\" or \"right\"") == 0);
+  CHECK(message("text -> \"a\" depth -> 1 font -> \"no.ttf\"") == "there is no file 'no.ttf'");
+  CHECK(message("text -> \"a\" depth -> 1 font -> \"../../etc/passwd\"").find("lies outside") !=
+        std::string::npos);
+}

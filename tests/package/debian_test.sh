@@ -46,6 +46,7 @@ library=${library%%_*}
 major=${library#libcrt}
 expect_field "$library" Depends 'libembree[34]-[34]' 'libtbb12' 'libfmt' 'libopenimageio' 'libc6' \
   'libstdc\+\+6'
+expect_field "$library" Recommends 'libfreetype6'
 expect_field libcrt-dev Depends "^$library \(= [0-9.]+\)$"
 expect_field libcrt-dev Recommends libglm-dev libfmt-dev libtbb-dev libembree-dev \
   zlib1g-dev libexpat1-dev

@@ -3,6 +3,8 @@
 import math
 import unittest
 
+from support import SOURCE
+
 import crt
 
 
@@ -33,6 +35,28 @@ class Profiles(unittest.TestCase):
         curve = "M0 0Q1 1 2 0"
         coarse, fine = (crt.svg_path(curve, deviation=d) for d in (0.1, 1e-6))
         self.assertLess(len(coarse[0]), len(fine[0]))
+
+    def test_text(self):
+        self.assertEqual(len(crt.text_contours("B")), 3)
+        (one,) = crt.text_contours("I", 2048)
+        self.assertEqual(max(y for _, y, _ in one), 1409)
+        (right,) = crt.text_contours("I", 2048, alignment="right")
+        self.assertLess(max(x for x, _, _ in right), 0)
+        file = SOURCE / "share/fonts/LiberationSans-Regular.ttf"
+        self.assertEqual(crt.text_contours("I", 2048, font=file), [one])
+        self.assertEqual(crt.text_contours(" "), [])
+        with self.assertWarnsRegex(UserWarning, "the font lacks 2 of the letters"):
+            crt.text_contours("\u6f22\u5b57\u6f22")
+        self.assertEqual(len(crossings(crt.text_contours("H"), 0.1)), 4)
+        for arguments, message in (
+            ({"alignment": "middle"}, "alignment must be one of"),
+            ({"size": 0}, "text_contours: size must be"),
+            ({"font": "no such.ttf"}, "no such.ttf"),
+        ):
+            with self.assertRaisesRegex((ValueError, crt.Error), message):
+                crt.text_contours("a", **arguments)
+        with self.assertRaisesRegex(crt.Error, "text must be UTF-8"):
+            crt.text_contours("\ud800")
 
     def test_errors(self):
         with self.assertRaisesRegex(crt.Error, "svg_path: path has 'X' at character 5"):

@@ -94,7 +94,7 @@ class Wheel(unittest.TestCase):
         names = zipfile.ZipFile(self.wheel).namelist()
         for name in ("crt/py.typed", "crt/values.pyi", "crt/_native/libcrt.so.1"):
             self.assertIn(name, names)
-        for library in ("libembree", "libtbb", "libfmt", "libpng"):
+        for library in ("libembree", "libtbb", "libfmt", "libpng", "libfreetype"):
             found = [name for name in names if f"_native/{library}" in name]
             self.assertTrue(found, f"{library} of {names}")
             licences = [name for name in names if f"licenses/{library}" in name]

@@ -139,7 +139,8 @@ void Arrangement::join_close_meetings() {
       const Vec2 offset = meetings_[order[k]].place - meetings_[order[i]].place;
       if (glm::length(offset) <= close) unite(order[i], order[k]);
     }
-    budget_.spend(k - i);
+    constexpr std::size_t steps_of_pair = 4;
+    budget_.spend(steps_of_pair * (k - i));
   }
   for (std::uint32_t i = 0; i < meetings_.size(); ++i) meetings_[i].first = first_of(i);
   for (Meeting& meeting : meetings_) {

@@ -14,7 +14,7 @@ namespace {
 
 [[noreturn]] void refuse_touching() {
   throw Error(ErrorCode::unsupported,
-              "contours touch so closely that the nonzero rule cannot be told apart from rounding: "
+              "contours touch so closely that rounding decides what the nonzero rule fills: "
               "use the even-odd rule, or draw them as several");
 }
 
@@ -50,6 +50,7 @@ std::vector<Arrangement::Run> Arrangement::boundary_runs(const WindingIndex& ind
   std::vector<Run> runs;
   for (std::size_t i = 0; i < contours_.size(); ++i) {
     std::vector<Part> parts = parts_of(i);
+    if (parts.empty()) refuse_touching();  // all of it is at one place
     const auto begins = [](const Part& part) { return part.begin != none; };
     const auto first = std::find_if(parts.begin(), parts.end(), begins);
     if (first == parts.end()) {

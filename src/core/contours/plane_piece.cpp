@@ -141,9 +141,15 @@ int PlanePiece::winding_of_chord(const Vec2& point) const {
 
 std::vector<Vec2> common_points(const PlanePiece& a, const PlanePiece& b, double tolerance) {
   std::vector<Vec2> points;
+  const auto add = [&](const Vec2& point) {
+    const bool is_known = std::any_of(points.begin(), points.end(), [&](const Vec2& known) {
+      return glm::length(known - point) <= tolerance;
+    });
+    if (!is_known) points.push_back(point);
+  };
   for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     for (const Vec2& end : {one->from_, one->to_}) {
-      if (other->has(end, tolerance)) points.push_back(end);
+      if (other->has(end, tolerance)) add(end);
     }
   }
   const Vec2 origin = a.from_;
@@ -178,7 +184,7 @@ std::vector<Vec2> common_points(const PlanePiece& a, const PlanePiece& b, double
       const double of_point_b = b.beside(point);
       point -= quarter_turned(of_point_b * across_a - of_point_a * across_b) / sine;
     }
-    if (a.has(point, tolerance) && b.has(point, tolerance)) points.push_back(point);
+    if (a.has(point, tolerance) && b.has(point, tolerance)) add(point);
   }
   return points;
 }
