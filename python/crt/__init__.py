@@ -23,6 +23,7 @@ from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Stat
 from .expressions import Expression
 from .images import Image
 from .jobs import Job
+from .meshes import Mesh, load_mesh
 from .primitives import (
     Box,
     Capsule,
@@ -32,12 +33,10 @@ from .primitives import (
     Empty,
     Extrusion,
     HalfPlane,
-    Mesh,
     Plane,
     Sphere,
     Torus,
     Triangle,
-    load_mesh,
 )
 from .rays import BACKFACE, ENTERING, HIT, HIT_PART, NO_ENTITY, RAY, camera_rays, ray, rays
 from .rendering import Prepared
