@@ -23,6 +23,7 @@ from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Stat
 from .expressions import Expression
 from .images import Image
 from .jobs import Job
+from .meshes import Mesh, load_mesh
 from .primitives import (
     Box,
     Capsule,
@@ -32,13 +33,11 @@ from .primitives import (
     Empty,
     Extrusion,
     HalfPlane,
-    Mesh,
     Plane,
     Revolution,
     Sphere,
     Torus,
     Triangle,
-    load_mesh,
 )
 from .profiles import svg_path, text_contours
 from .rays import BACKFACE, ENTERING, HIT, HIT_PART, NO_ENTITY, RAY, camera_rays, ray, rays

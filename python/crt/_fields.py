@@ -167,6 +167,49 @@ FIELDS = {
             "A scene without lights is lit from the camera, unless this is not 0. Default 0.",
         ),
     ),
+    "crt_mesh": (
+        ("int32_t reserved", "must be 0"),
+        ("const double* positions", "3 * vertex_count numbers, as for crt_mesh_create()"),
+        ("uint64_t vertex_count", ""),
+        ("const uint32_t* indices", "3 * triangle_count numbers, each below vertex_count"),
+        ("uint64_t triangle_count", ""),
+        (
+            "const double* normals",
+            "Has 3 * normal_count numbers: normals of any length. One that is 0 stands for that"
+            " of the triangle. They are turned to the side of the triangle's own normal. "
+            "Default None.",
+        ),
+        ("uint64_t normal_count", "default 0"),
+        (
+            "const uint32_t* normal_indices",
+            "Has 3 * triangle_count numbers that name the normals of the triangles' corners. "
+            "Default None: those of `indices`, and normal_count is vertex_count.",
+        ),
+        ("const double* uv", "2 * uv_count numbers, up to 1e30 in magnitude; default None"),
+        ("uint64_t uv_count", "default 0"),
+        (
+            "const uint32_t* uv_indices",
+            "name the (u, v) of the corners as normal_indices do normals",
+        ),
+        (
+            "const crt_material* const* materials",
+            "Has material_count materials. They stand in the place of the default one: a "
+            "material that the whole entity gets is put in their place. Default None.",
+        ),
+        ("uint64_t material_count", "default 0"),
+        (
+            "const uint32_t* material_of_triangle",
+            "Has triangle_count numbers that name the triangles' materials. Default None: all "
+            "have the first.",
+        ),
+        (
+            "double smooth",
+            "Is the largest angle in radians, up to pi, between triangles that are shaded as "
+            "one round surface across their edge. Their normals are then computed, and those "
+            "above left alone. 0 leaves all flat. Default -1: the normals above, if there are "
+            "any.",
+        ),
+    ),
     "crt_prepare_options": (
         ("uint32_t reserved", "0"),
         (

@@ -3,7 +3,6 @@ Entity.with_material and Entity.with_id do."""
 
 import ctypes
 import math
-import os
 from collections.abc import Sequence
 from typing import Any, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
 

@@ -63,6 +63,24 @@ AT(crt_material, absorption, 96);
 AT(crt_material, bump, 120);
 AT(crt_material, bump_height, 128);
 
+SIZE(crt_mesh, 120);
+AT(crt_mesh, struct_size, 0);
+AT(crt_mesh, reserved, 4);
+AT(crt_mesh, positions, 8);
+AT(crt_mesh, vertex_count, 16);
+AT(crt_mesh, indices, 24);
+AT(crt_mesh, triangle_count, 32);
+AT(crt_mesh, normals, 40);
+AT(crt_mesh, normal_count, 48);
+AT(crt_mesh, normal_indices, 56);
+AT(crt_mesh, uv, 64);
+AT(crt_mesh, uv_count, 72);
+AT(crt_mesh, uv_indices, 80);
+AT(crt_mesh, materials, 88);
+AT(crt_mesh, material_count, 96);
+AT(crt_mesh, material_of_triangle, 104);
+AT(crt_mesh, smooth, 112);
+
 SIZE(crt_light, 120);
 AT(crt_light, struct_size, 0);
 AT(crt_light, type, 4);

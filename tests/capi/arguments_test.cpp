@@ -69,6 +69,9 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_light light;
   crt_light_init(&light, sizeof light);
   const ProfileHandle square = square_profile();
+  crt_mesh mesh;
+  crt_mesh_init(&mesh, sizeof mesh);
+  mesh.vertex_count = 1;
 
   check_all({
       {"out", [&] { return crt_sphere_create(z, 1, nullptr); }},
@@ -98,7 +101,12 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"c", [&] { return crt_triangle_create(z, o, nullptr, &entity); }},
       {"positions", [&] { return crt_mesh_create(nullptr, 3, triangle_indices(), 1, &entity); }},
       {"indices", [&] { return crt_mesh_create(z, 1, nullptr, 1, &entity); }},
+      {"mesh", [&] { return crt_mesh_create_with(nullptr, &entity); }},
+      {"out", [&] { return crt_mesh_create_with(&mesh, nullptr); }},
+      {"positions", [&] { return crt_mesh_create_with(&mesh, &entity); }},
       {"path", [&] { return crt_mesh_load(nullptr, nullptr, &entity); }},
+      {"path", [&] { return crt_mesh_load_smooth(nullptr, nullptr, 1, &entity); }},
+      {"smooth", [&] { return crt_mesh_load_smooth("a.obj", nullptr, 4, &entity); }},
       {"entity", [&] { return crt_entity_solid_fault(nullptr, nullptr, 0, &count); }},
       {"entity", [&] { return crt_entity_bounds(nullptr, corner, corner); }},
       {"lower", [&] { return crt_entity_bounds(ball.get(), nullptr, corner); }},

@@ -191,7 +191,18 @@ void Session::make_primitive() {
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};
-        return crt_mesh_create(positions, 3, indices, 2, out);
+        if (input_.below(2) == 0) return crt_mesh_create(positions, 3, indices, 2, out);
+        crt_mesh mesh;
+        crt_mesh_init(&mesh, sizeof mesh);
+        mesh.positions = mesh.normals = mesh.uv = positions;
+        mesh.indices = indices;
+        mesh.vertex_count = 3;
+        mesh.triangle_count = 2;
+        mesh.normal_count = mesh.uv_count = input_.below(4);
+        if (input_.below(2) != 0) mesh.normal_indices = mesh.uv_indices = indices;
+        if (input_.below(2) != 0) mesh.material_of_triangle = indices;
+        mesh.smooth = r;
+        return crt_mesh_create_with(&mesh, out);
       }
     }
   });

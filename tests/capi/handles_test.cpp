@@ -106,6 +106,54 @@ TEST_CASE("entities say what they are") {
   CHECK(out == nullptr);
 }
 
+TEST_CASE("a mesh has normals, texture coordinates and materials") {
+  const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  const std::uint32_t indices[] = {0, 1, 2, 1, 3, 2};
+  const double normals[] = {0, 0, -1};
+  const std::uint32_t normal_indices[] = {0, 0, 0, 0, UINT32_MAX, 0};
+  const double uv[] = {0, 0, 10, 0, 0, 10, 10, 10};
+  crt_material materials[2];
+  for (crt_material& material : materials) crt_material_init(&material, sizeof material);
+  const crt_material* const places[] = {&materials[0], &materials[1]};
+  const std::uint32_t material_of_triangle[] = {1, UINT32_MAX};
+  crt_mesh mesh;
+  REQUIRE(crt_mesh_init(&mesh, sizeof mesh) == CRT_OK);
+  CHECK(mesh.smooth == -1);
+  mesh.positions = corners;
+  mesh.vertex_count = 4;
+  mesh.indices = indices;
+  mesh.triangle_count = 2;
+  mesh.normals = normals;
+  mesh.normal_count = 1;
+  mesh.normal_indices = normal_indices;
+  mesh.uv = uv;
+  mesh.uv_count = 4;
+  mesh.materials = places;
+  mesh.material_count = 2;
+  mesh.material_of_triangle = material_of_triangle;
+  const EntityHandle entity =
+      made<EntityHandle>([&](crt_entity** out) { return crt_mesh_create_with(&mesh, out); });
+  const SceneHandle scene = made<SceneHandle>(crt_scene_create);
+  REQUIRE(crt_scene_add_entity(scene.get(), entity.get()) == CRT_OK);
+  const PreparedHandle prepared =
+      made<PreparedHandle>([&](crt_prepared** out) { return crt_scene_prepare(scene.get(), out); });
+  const crt_ray ray = {{0.25, 0.5, -1}, {0, 0, 1}, 0, 10};
+  crt_hit hit;
+  REQUIRE(crt_intersect(prepared.get(), &ray, 0, 1, &hit, 0) == CRT_OK);
+  CHECK(hit.u == 2.5);
+  CHECK(hit.v == 5);
+
+  crt_entity* out = nullptr;
+  mesh.normal_count = 0;
+  CHECK(crt_mesh_create_with(&mesh, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("normal_indices[0] has the index 0, but there are 0 normals"));
+  mesh.normal_count = 1;
+  mesh.smooth = 4;
+  CHECK(crt_mesh_create_with(&mesh, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("smooth"));
+  CHECK(out == nullptr);
+}
+
 TEST_CASE("each thread has its own last message") {
   crt_entity* out = nullptr;
   const double zero[3] = {0, 0, 0};

@@ -71,16 +71,19 @@ void check_normals(const Entity& entity, double distance, const NormalAt& normal
   for (const Precision precision : tiers) {
     const Scene scene = scene_with(entity, precision);
     Random random(5);
+    int met = 0;
     for (int i = 0; i < 60; ++i) {
       const Vec3 eye = distance * glm::normalize(random.in_cube());
       const Vec3 target = 0.3 * random.in_cube();
       const Vec3 view = glm::normalize(target - eye);
       const Pixel pixel = pixel_of(scene, eye, target);
-      REQUIRE(std::isfinite(pixel.depth));
+      if (!std::isfinite(pixel.depth)) continue;
+      ++met;
       const Vec3 place = eye + pixel.depth * view;
       const Vec3 expected = seen_normal(normal_at(place, view), view);
       REQUIRE(glm::distance(pixel.normal, expected) < 1e-4);
     }
+    CHECK(met > 30);
   }
 }
 
@@ -110,10 +113,6 @@ Entity colored_cube(const std::vector<SharedMaterial>& materials) {
     }
   }
   return triangle_mesh(list.positions, list.triangles, attributes);
-}
-
-double brightness(const Image& image, int x, int y) {
-  return image.at(x, y).g;
 }
 
 }  // namespace
@@ -204,21 +203,18 @@ TEST_CASE("the light on a smooth ball has no jumps where facets turn away from i
   scene.camera.pointing = {0, 0, 0};
   scene.settings.width = 1;
   scene.settings.height = 400;
-  const Image smooth = render(prepare(scene));
-  double largest = 0;
-  for (int y = 1; y < 400; ++y) {
-    if (brightness(smooth, 0, y - 1) == 0 && y < 200) continue;  // where the ball begins
-    largest = std::max(largest, std::abs(brightness(smooth, 0, y) - brightness(smooth, 0, y - 1)));
-  }
-  CHECK(largest < 0.06);
+  const auto largest_jump = [&] {
+    const Image image = render(prepare(scene));
+    double largest = 0;
+    for (int y = 141; y < 260; ++y) {  // within the silhouette
+      const double change = double{image.at(0, y).g} - double{image.at(0, y - 1).g};
+      largest = std::max(largest, std::abs(change));
+    }
+    return largest;
+  };
+  CHECK(largest_jump() < 0.02);
   scene.entities = {flat_ball(6)};
-  const Image flat = render(prepare(scene));
-  double largest_of_flat = 0;
-  for (int y = 200; y < 400; ++y) {
-    largest_of_flat =
-        std::max(largest_of_flat, std::abs(brightness(flat, 0, y) - brightness(flat, 0, y - 1)));
-  }
-  CHECK(largest_of_flat > 0.06);  // so the bound says something
+  CHECK(largest_jump() > 0.1);
 }
 
 TEST_CASE("triangles of one plane have a material each") {

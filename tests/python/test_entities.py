@@ -1,5 +1,6 @@
 """These tests check where entities are, and what operators make of them."""
 
+import math
 import pathlib
 import tempfile
 import unittest
@@ -59,6 +60,43 @@ class Primitives(unittest.TestCase):
         for wrong in ([[0, 1, 3]], [[0, 1, -1]], [[0.0, 1.0, 2.0]], [0, 1, 2]):
             with self.assertRaises(ValueError):
                 crt.Mesh(corners, wrong)
+
+    def test_a_mesh_has_normals_texture_coordinates_and_materials(self):
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
+        triangles = [[0, 1, 2], [1, 3, 2]]
+        colors = [crt.Material(color=(1, 0, 0)), crt.Material(color=(0, 1, 0))]
+        mesh = crt.Mesh(
+            corners,
+            triangles,
+            normals=[[0, 0.6, -0.8]],
+            normal_indices=np.zeros((2, 3), int),
+            uv=2 * corners[:, :2],
+            materials=colors,
+            material_of_triangle=[0, 1],
+        )
+        places = [(0.25, 0.25, -1), (0.75, 0.75, -1)]
+        hits = crt.Scene([mesh]).prepare().intersect(crt.rays(places, (0, 0, 1)))
+        np.testing.assert_array_equal(hits["u"], [0.5, 1.5])
+        camera = crt.Camera(position=(0.25, 0.25, -1), pointing=(0.25, 0.25, 0))
+        settings = crt.Settings(width=1, height=1)
+        for entity, color in ((mesh, [1, 0, 0]), (mesh.with_material(colors[1]), [0, 1, 0])):
+            scene = crt.Scene([entity], camera=camera, settings=settings)
+            image = scene.prepare().render(aovs=["albedo", "normal"])
+            channels = [image.channels[f"albedo.{c}"][0, 0] for c in "RGB"]
+            self.assertEqual(channels, color)
+            self.assertAlmostEqual(float(image.channels["N.Y"][0, 0]), 0.6, 6)
+        for wrong in (
+            {"normals": [[0, 0, 1]]},
+            {"normals": [[0, 0, 1]], "normal_indices": [[0, 0, 1], [0, 0, 0]]},
+            {"normals": [[0, 0, math.nan]] * 4},
+            {"uv": [[0, 0, 0]] * 4},
+            {"uv_indices": [[0, 0, -1], [0, 0, 0]], "uv": [[0, 0]]},
+            {"material_of_triangle": [0]},
+            {"material_of_triangle": [0, 2], "materials": colors},
+            {"smooth": 3.2},
+        ):
+            with self.assertRaises((ValueError, crt.Error), msg=wrong):
+                crt.Mesh(corners, triangles, **wrong)
 
     def test_a_mesh_file_is_read_and_a_broken_one_says_where(self):
         with tempfile.TemporaryDirectory() as folder:

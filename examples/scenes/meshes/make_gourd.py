@@ -49,6 +49,12 @@ def normal(turn: float, way: float) -> list[float]:
     return unit(cross(upwards, around))
 
 
+def slope(outer: list[float], inner: list[float], turn: float) -> list[float]:
+    """Returns the normal of a cone's side between two points, one above the axis of the other."""
+    around = [math.cos(turn), 0, -math.sin(turn)]
+    return unit(cross(minus(inner, outer), around))
+
+
 class Ring:
     """A Ring has the numbers of vertices around the axis, of their places in the picture and of
     their normals. The picture goes around twice."""
@@ -100,7 +106,10 @@ def write_model():
     model.close(rings[0], skin(0, 0), -1)
     for lower, upper in zip(rings, rings[1:]):
         model.join(lower, upper)
-    foot = Ring(model, [stalk(turn, *STALK[0]) for turn in turns], [[0, 1, 0]] * PLACES, 1)
+    foot_places = [stalk(turn, *STALK[0]) for turn in turns]
+    slopes = [slope(place, foot, turn) for place, foot, turn in zip(places, foot_places, turns)]
+    rings[-1].normals = model.add("vn", slopes)
+    foot = Ring(model, foot_places, slopes, 1)
     model.join(rings[-1], foot)
     model.faces.append("usemtl stalk")
     outwards = [unit(stalk(turn, 1, 0)) for turn in turns]

@@ -48,7 +48,7 @@ class CornerIndices {
 class MeshBuilder {
  public:
   /// Files that the mesh file names are opened by `open`, if it is there.
-  explicit MeshBuilder(const OpenMeshPart& open = {}) : open_(open) {}
+  explicit MeshBuilder(OpenMeshPart open = {}) : open_(std::move(open)) {}
 
   /// Adds a position with checked coordinates. It has the number of positions before it. Throws
   /// RefusedMesh if there are too many.
@@ -95,7 +95,7 @@ class MeshBuilder {
   std::vector<std::uint32_t> material_of_;  ///< empty until a face has any
   std::uint32_t material_ = no_index;
   std::vector<std::string> warnings_;
-  const OpenMeshPart& open_;
+  OpenMeshPart open_;
 
   void add_triangle(const FaceCorners& face, std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void drop_flat();

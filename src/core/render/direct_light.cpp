@@ -49,8 +49,8 @@ void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, V
   const Lanes above = max(Lanes{}, cosine - group.horizons);
   const Lanes risen = select(above < group.horizons, above / group.horizons, one);
   const Lanes by_horizon = risen * (2.0 - risen);
-  const Lanes g =
-      min(dot(group.face_normal, to_light) / (cosine * dot(normal, group.face_normal)), one);
+  const Lanes ratio = dot(group.face_normal, to_light) / (cosine * dot(normal, group.face_normal));
+  const Lanes g = clamp(ratio, Lanes{}, one);
   const Lanes by_facet = g * (1.0 + g * (1.0 - g));
   const Lanes far =
       clamp((group.horizons - near_horizon) / (far_horizon - near_horizon), Lanes{}, one);
