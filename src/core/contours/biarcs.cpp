@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "core/math/vector.hpp"
+
 namespace crt::core {
 
 namespace {
