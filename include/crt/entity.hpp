@@ -43,7 +43,7 @@ class Entity {
   Entity transformed(const Transform& transform) const;
 
   /// Returns this entity with `material` on every part that has no material of its own. A part that
-  /// has one, from its maker or from an earlier call, keeps it.
+  /// has one, from its maker or an earlier call, keeps it. That of MeshAttributes gives way.
   Entity with_material(SharedMaterial material) const;
 
   /// Returns this entity under a number of the caller's choice, which hits report. Without one,

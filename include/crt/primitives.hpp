@@ -118,8 +118,8 @@ class MeshTriangles;
 /// Names the corners of a triangle of a mesh by their places in the list of positions.
 using TriangleIndices = std::array<std::uint32_t, 3>;
 
-/// A Mesh is a solid that triangles enclose, or else a surface: see mesh_triangles(). Copies share
-/// the triangles. (u, v) are the weights of a triangle's second and third corner.
+/// A Mesh is a solid that triangles enclose, or else a surface. Copies share the triangles. (u, v)
+/// are the weights of a triangle's second and third corner, or those of its MeshAttributes.
 struct Mesh {
   std::shared_ptr<const MeshTriangles> triangles{};  ///< from mesh_triangles(); must be given
   std::optional<SharedMaterial> material{};

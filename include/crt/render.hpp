@@ -26,8 +26,8 @@ struct Aovs {
   /// "Z" is the distance along the ray from the camera (orthographic: from the image plane) to the
   /// first surface, in scene units. It is infinity where there is none.
   bool depth = false;
-  /// "N.X", "N.Y", "N.Z" are the unit normal in the world, turned to the viewer and tilted by
-  /// bumps. Samples that meet nothing count as 0.
+  /// "N.X", "N.Y", "N.Z" are the unit normal of shading in the world, turned to the viewer and
+  /// tilted by bumps. Samples that meet nothing count as 0.
   bool normal = false;
   /// "id" has whole numbers: Entity::with_id, or else the entity's place in Scene::entities. It is
   /// no_entity_id where there is nothing.

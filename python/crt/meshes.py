@@ -114,13 +114,14 @@ def _angle(value: SupportsFloat, name: str) -> float:
 
 
 def _put_materials(mesh: _MeshStruct, materials: Sequence[Material]) -> None:
-    if not materials:
+    given: list[Any] = list(materials)
+    if not given:
         return
-    for i, material in enumerate(materials):
+    for i, material in enumerate(given):
         reference(material, "crt_material", f"Mesh: materials[{i}]")
-    addresses = (ctypes.c_void_p * len(materials))(*map(ctypes.addressof, materials))
+    addresses = (ctypes.c_void_p * len(given))(*map(ctypes.addressof, given))
     mesh.put("materials", "material_count", addresses)
-    mesh._kept["_owners"] = tuple(materials)
+    mesh._kept["_owners"] = given
 
 
 def _numbers(given: ArrayLike, width: int, name: str) -> NDArray[np.float64]:
