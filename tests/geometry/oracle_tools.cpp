@@ -125,6 +125,11 @@ Extrusion times(Extrusion s, double k) {
   s.to *= k;
   return s;
 }
+HeightField times(HeightField s, double k) {
+  s.corner_a *= k;
+  s.corner_b *= k;
+  return s;
+}
 Triangle times(Triangle s, double k) {
   s.a *= k;
   s.b *= k;
