@@ -20,6 +20,14 @@
 
 namespace crt::lang {
 
+/// Heights of a height field are given as an image or as rows.
+struct HeightImage {
+  std::shared_ptr<const HeightGrid> grid;
+};
+struct HeightRows {
+  std::shared_ptr<const HeightGrid> grid;
+};
+
 // Each throws a Failure at the value if it has another type, or numbers that are not finite.
 void convert(const Given& given, Context& context, double& field);
 void convert(const Given& given, Context& context, int& field);
@@ -36,6 +44,8 @@ void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Entity>& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field);
+void convert(const Given& given, Context& context, HeightImage& field);
+void convert(const Given& given, Context& context, HeightRows& field);
 void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
@@ -101,6 +111,12 @@ constexpr std::string_view type_text(const std::shared_ptr<const Entity>*) {
 }
 constexpr std::string_view type_text(const std::shared_ptr<const Profile>*) {
   return "List of corners";
+}
+constexpr std::string_view type_text(const HeightImage*) {
+  return "String";
+}
+constexpr std::string_view type_text(const HeightRows*) {
+  return "List of Lists";
 }
 constexpr std::string_view type_text(const Projection*) {
   return "String";

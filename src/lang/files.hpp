@@ -46,6 +46,11 @@ class Files {
                                      const std::filesystem::path& directory, Span span,
                                      Reporter& reporter);
 
+  /// Returns the heights that an image has, which is decoded once a run for them.
+  std::shared_ptr<const HeightGrid> heights(const std::string& name,
+                                            const std::filesystem::path& directory, Span span,
+                                            Reporter& reporter);
+
   /// Returns the entity of a mesh file, which is read once a run.
   std::shared_ptr<const Entity> mesh(const std::string& name,
                                      const std::filesystem::path& directory, Span span);
@@ -59,6 +64,7 @@ class Files {
   const ScriptOptions& options_;
   std::filesystem::path script_directory_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
+  std::map<std::filesystem::path, std::shared_ptr<const HeightGrid>> heights_;
   std::map<std::filesystem::path, std::shared_ptr<const Entity>> meshes_;
 };
 
