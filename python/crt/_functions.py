@@ -129,6 +129,15 @@ FUNCTIONS = {
         "const double to[3]",
         "crt_entity** out",
     ),
+    "crt_height_field_create": (
+        "crt_status",
+        "const double* heights",
+        "uint32_t columns",
+        "uint32_t rows",
+        "const double corner_a[3]",
+        "const double corner_b[3]",
+        "crt_entity** out",
+    ),
     "crt_empty_create": ("crt_status", "crt_entity** out"),
     "crt_union_create": (
         "crt_status",

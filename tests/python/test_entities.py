@@ -33,6 +33,8 @@ class Primitives(unittest.TestCase):
             (crt.Torus((0, 0, 0), (0, 1, 0), 2, 0.5), [x - 2.5, x - 1.5, x + 1.5, x + 2.5]),
             (crt.Extrusion([(1, 1), (1, -1), (-1, 0)], (2, 0, 0), (3, 0, 0)), [x + 2, x + 3]),
             (crt.Extrusion([[(2, 0, 1), (-2, 0, 1)]], (0, 0, -1), (0, 0, 1)), [x - 2, x + 2]),
+            (crt.HeightField([[1, 1], [1, 1]], (1, 1, 1), (-2, -1, -1)), [x - 2, x + 1]),
+            (crt.HeightField([[0, 1, 0], [0, 1, 0]], (-2, -2, -2), (2, 2, 2)), [x - 1, x + 1]),
             (crt.Disc((1, 0, 0), (1, 0, 0), 1), [x + 1]),
             (crt.Triangle((1, -1, -1), (1, 2, -1), (1, 0, 2)), [x + 1]),
             (crt.Mesh([[1, -1, -1], [1, 2, -1], [1, 0, 2]], [[0, 1, 2]]), [x + 1]),
@@ -54,6 +56,14 @@ class Primitives(unittest.TestCase):
         for wrong in ([[0, 1, 3]], [[0, 1, -1]], [[0.0, 1.0, 2.0]], [0, 1, 2]):
             with self.assertRaises(ValueError):
                 crt.Mesh(corners, wrong)
+
+    def test_a_height_field_takes_rows_of_numbers_from_0_to_1(self):
+        for wrong in ([1, 2], [[1, 2], [3]], [["a"]], np.ones((2, 2, 2))):
+            with self.assertRaises((ValueError, TypeError)):
+                crt.HeightField(wrong, (0, 0, 0), (1, 1, 1))
+        for wrong in ([[1]], [[1, 2], [0, 0]], [[0, 0], [0, float("nan")]], np.ones((0, 5))):
+            with self.assertRaises(crt.Error):
+                crt.HeightField(wrong, (0, 0, 0), (1, 1, 1))
 
     def test_a_mesh_file_is_read_and_a_broken_one_says_where(self):
         with tempfile.TemporaryDirectory() as folder:
