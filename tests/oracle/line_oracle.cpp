@@ -91,6 +91,15 @@ double gradient(const Extrusion& extrusion, std::size_t which, const ExactLine<N
   return which == 3 ? 2 * profile.radius : 1;
 }
 
+template <class Number>
+double gradient(const HeightField& field, std::size_t which, const ExactLine<Number>&,
+                const Number&) {
+  constexpr std::size_t first_top = 5;
+  if (which < first_top) return 1;
+  const Triangle triangle = CornerField(field).triangles()[which - first_top];
+  return glm::length(rounded(normal_of<Number>(triangle)));
+}
+
 /// Returns where a line meets a surface's plane, relative to its position, times `w` (so that it is
 /// exact).
 template <class Number>
