@@ -683,6 +683,21 @@ CRT_API crt_status crt_revolution_create(const crt_profile* profile, const doubl
                                          const double to[3], double angle, crt_entity** out);
 
 /**
+ * Makes a height field: a solid in the box between two opposite corners, which differ by at least
+ * 1e-100 in every coordinate. It is below a surface over a grid of heights, of `columns` along x
+ * and `rows` along z. The first column and row lie at the box's lower x and z, the last ones at the
+ * upper. A height is from 0, at the box's lower y, to 1, at its upper. They must not all be 0.
+ * Between four heights there are two triangles, which meet in the line from lower x and z to upper
+ * x and z.
+ * @param heights  columns * rows numbers, row by row
+ * @param columns  at least 2
+ * @param rows     at least 2; columns * rows must be at most 2^27
+ */
+CRT_API crt_status crt_height_field_create(const double* heights, uint32_t columns, uint32_t rows,
+                                           const double corner_a[3], const double corner_b[3],
+                                           crt_entity** out);
+
+/**
  * Makes the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No
  * ray meets it. In combinations it behaves as the empty set. No transform, material or id changes
  * it.

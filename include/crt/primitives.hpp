@@ -199,8 +199,42 @@ struct Revolution {
   std::optional<SharedMaterial> material{};
 };
 
+class HeightGrid;
+
+/// Makes a grid of heights for height fields, of `columns` along x and `rows` along z. heights[row
+/// * columns + column] is the height there. A height is a share of a box, from 0 at its lower y to
+/// 1 at its upper. It takes O(n) on the calling thread. Throws Error (invalid_argument) naming the
+/// column and the row for a height that is not from 0 to 1, if all heights are 0, if there are
+/// fewer than 2 columns or rows, or more than 2^27 heights, and for a wrong number of heights.
+std::shared_ptr<const HeightGrid> make_height_grid(std::vector<double> heights,
+                                                   std::uint32_t columns, std::uint32_t rows);
+
+/// Makes the grid of a picture: a height for each pixel, of which the rows run from upper z, at the
+/// top of the picture, to lower z. A height is the mean of red, green and blue as the picture has
+/// them. So of a file of 8 or 16 bits it is the stored number as a share of the largest, and
+/// gammas do not count. Throws Error (invalid_argument) as the other function does.
+std::shared_ptr<const HeightGrid> make_height_grid(const Image& image);
+
+/// A HeightField is a solid in the box between any two opposite corners, which differ by at least
+/// 1e-100 in every coordinate. It is below the surface through the heights of a grid, whose first
+/// column and row lie at the box's lower x and z, the last ones at the upper. A cell between four
+/// heights has two triangles, which meet in the line from its corner at lower x and z to that at
+/// upper x and z. A height of 0 is at the bottom, where the solid has no thickness. Copies share
+/// the grid. (u, v) run along x and z across the box, or as a Box has them on its sides, in [0, 1].
+///
+/// The corners of the triangles are doubles. Column i of n + 1 is at the box's lower x plus (i
+/// times the width) / n, each step rounded, and the last one at the upper x. Rows are alike. A
+/// height h is at the lower y plus h times the box's height, or at the upper y for 1. Where a
+/// column or row is not beyond the one before it, there is an Error (invalid_argument).
+struct HeightField {
+  std::shared_ptr<const HeightGrid> heights{};  ///< from make_height_grid(); must be given
+  Vec3 corner_a{-1, 0, -1};
+  Vec3 corner_b{1, 1, 1};
+  std::optional<SharedMaterial> material{};
+};
+
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle,
-                               Capsule, Mesh, Extrusion, Revolution>;
+                               Capsule, Mesh, Extrusion, Revolution, HeightField>;
 
 }  // namespace crt

@@ -27,6 +27,7 @@ __all__ = [
     "Empty",
     "Extrusion",
     "HalfPlane",
+    "HeightField",
     "Plane",
     "Revolution",
     "Sphere",
@@ -355,6 +356,37 @@ class Revolution(_Primitive):
         self._create(
             "crt_revolution_create", material, id, shown, handle, a, b, math.radians(turn)
         )
+
+
+class HeightField(_Primitive):
+    """A HeightField is a solid in the box between two corners, below a surface over a grid of
+    heights. `heights` has a row for each z, from lower to upper, of a number for each x. They are
+    from 0, at the box's lower y, to 1, at its upper."""
+
+    heights = _Given[Any]()
+    corner_a = _Given[Vector]()
+    corner_b = _Given[Vector]()
+
+    def __init__(
+        self,
+        heights: ArrayLike,
+        corner_a: Point,
+        corner_b: Point,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        try:
+            grid = np.ascontiguousarray(heights, np.float64)
+        except (TypeError, ValueError):
+            raise _arguments.refusal("HeightField: heights", "n x m numbers", heights) from None
+        if grid.ndim != 2 or max(grid.shape) >= 2**32:
+            raise ValueError(f"HeightField: heights must be n x m numbers, not {grid.shape}")
+        a, b = self._vectors(corner_a=corner_a, corner_b=corner_b)
+        rows, columns = grid.shape
+        shown = {"heights": f"<{rows} x {columns}>", "corner_a": tuple(a), "corner_b": tuple(b)}
+        arrays = grid.ctypes.data, columns, rows
+        self._create("crt_height_field_create", material, id, shown, *arrays, a, b)
 
 
 class Torus(_Primitive):

@@ -1,6 +1,7 @@
 // This file implements the entities of the C interface.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,17 @@ Transform to_transform(const double* affine) {
           .row_y = {m[4], m[5], m[6]},
           .row_z = {m[8], m[9], m[10]},
           .translation = {m[3], m[7], m[11]}};
+}
+
+/// Copies heights. Sizes that no grid may have are refused before any height is read.
+std::shared_ptr<const HeightGrid> to_height_grid(const double* heights, std::uint32_t columns,
+                                                 std::uint32_t rows) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 27;
+  const std::uint64_t count = std::uint64_t{columns} * rows;
+  const bool is_fine = columns > 1 && rows > 1 && count <= most;
+  std::vector<double> copied;
+  if (is_fine) copied.assign(heights, heights + count);
+  return make_height_grid(std::move(copied), columns, rows);
 }
 
 }  // namespace
@@ -119,6 +131,17 @@ crt_status crt_triangle_create(const double a[3], const double b[3], const doubl
                                crt_entity** out) {
   return create(out, [&] {
     return crt::Triangle{.a = to_vec3(a, "a"), .b = to_vec3(b, "b"), .c = to_vec3(c, "c")};
+  });
+}
+
+crt_status crt_height_field_create(const double* heights, uint32_t columns, uint32_t rows,
+                                   const double corner_a[3], const double corner_b[3],
+                                   crt_entity** out) {
+  return create(out, [&] {
+    require(heights, "heights");
+    return crt::HeightField{.heights = to_height_grid(heights, columns, rows),
+                            .corner_a = to_vec3(corner_a, "corner_a"),
+                            .corner_b = to_vec3(corner_b, "corner_b")};
   });
 }
 

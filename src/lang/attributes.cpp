@@ -290,6 +290,44 @@ void convert(const Given& given, Context&, TextAlignment& field) {
          field);
 }
 
+void convert(const Given& given, Context& context, HeightImage& field) {
+  const std::string& name = get<String>(given)->text;
+  const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
+  field.grid = context.files.heights(name, directory, given.value_span, context.reporter);
+}
+
+void convert(const Given& given, Context& context, HeightRows& field) {
+  const std::vector<Value>& rows = get<List>(given)->items;
+  std::vector<double> heights;
+  std::size_t columns = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const List* row = std::get_if<List>(&rows[i]);
+    if (!row) {
+      reject(given, fmt::format("must have rows such as [0, 0.5, 1]; it has {} in it",
+                                type_with_article(rows[i])));
+    }
+    const std::vector<Value>& items = (*row)->items;
+    if (i == 0) columns = items.size();
+    if (items.size() != columns) {
+      reject(given, fmt::format("must have rows of one length; row {} has {} heights, row 0 has {}",
+                                i, items.size(), columns));
+    }
+    context.spend(given.value_span, items.size());
+    for (const Value& item : items) {
+      double storage = 0;
+      const double* number = as_float(item, storage);
+      if (!number) {
+        reject(given,
+               fmt::format("must have numbers; it has {} in row {}", type_with_article(item), i));
+      }
+      heights.push_back(*number);
+    }
+  }
+  // One that has too many rows has too many heights in memory already.
+  field.grid = make_height_grid(std::move(heights), static_cast<std::uint32_t>(columns),
+                                static_cast<std::uint32_t>(rows.size()));
+}
+
 void convert(const Given& given, Context&, Projection& field) {
   using enum Projection;
   using Choice = std::pair<std::string_view, Projection>;

@@ -29,6 +29,14 @@ struct FileName {
   Span span;
 };
 
+/// Heights of a height field are given as an image or as rows.
+struct HeightImage {
+  std::shared_ptr<const HeightGrid> grid;
+};
+struct HeightRows {
+  std::shared_ptr<const HeightGrid> grid;
+};
+
 // Each throws a Failure at the value if it has another type, or numbers that are not finite.
 void convert(const Given& given, Context& context, double& field);
 void convert(const Given& given, Context& context, int& field);
@@ -47,6 +55,8 @@ void convert(const Given& given, Context& context, FileName& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Font>& field);
 void convert(const Given& given, Context& context, TextAlignment& field);
+void convert(const Given& given, Context& context, HeightImage& field);
+void convert(const Given& given, Context& context, HeightRows& field);
 void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
@@ -118,6 +128,12 @@ constexpr std::string_view type_text(const std::shared_ptr<const Font>*) {
 }
 constexpr std::string_view type_text(const TextAlignment*) {
   return "String";
+}
+constexpr std::string_view type_text(const HeightImage*) {
+  return "String";
+}
+constexpr std::string_view type_text(const HeightRows*) {
+  return "List of Lists";
 }
 constexpr std::string_view type_text(const Projection*) {
   return "String";

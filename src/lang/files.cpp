@@ -135,23 +135,38 @@ std::string Files::read_text(Found found, std::size_t most_bytes, Span span) con
   return std::move(*text);
 }
 
+namespace {
+
+/// Decodes an image. Values that are not finite become 0, of which it warns.
+Image read_image(const Files::Found& found, Span span, Reporter& reporter) {
+  Image image = found.content ? Image::decode(*found.content, found.shown.string())
+                              : Image::read(found.shown);
+  if (image.not_finite().pixels > 0) {
+    reporter.warning(span, printable(image.not_finite().message()));
+    image.set_not_finite({});
+  }
+  return image;
+}
+
+/// Calls make(), whose errors are about a file that is named at `span`.
+template <class Make>
+auto made_of_file(Span span, const Make& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
+  }
+}
+
+}  // namespace
+
 std::shared_ptr<const Image> Files::image(const std::string& name, const fs::path& directory,
                                           Span span, Reporter& reporter) {
   const Found found = find(name, directory, span);
   std::shared_ptr<const Image>& image = images_[found.path];
   if (!image) {
-    try {
-      auto read = std::make_shared<Image>(found.content
-                                              ? Image::decode(*found.content, found.shown.string())
-                                              : Image::read(found.shown));
-      if (read->not_finite().pixels > 0) {
-        reporter.warning(span, printable(read->not_finite().message()));
-        read->set_not_finite({});
-      }
-      image = std::move(read);
-    } catch (const Error& error) {
-      throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
-    }
+    image = made_of_file(
+        span, [&] { return std::make_shared<const Image>(read_image(found, span, reporter)); });
   }
   return image;
 }
@@ -171,6 +186,17 @@ std::vector<std::byte> Files::part_of_mesh(const std::string& name, const fs::pa
   }
 }
 
+std::shared_ptr<const HeightGrid> Files::heights(const std::string& name, const fs::path& directory,
+                                                 Span span, Reporter& reporter) {
+  const Found found = find(name, directory, span);
+  std::shared_ptr<const HeightGrid>& heights = heights_[found.path];
+  if (!heights) {
+    heights =
+        made_of_file(span, [&] { return make_height_grid(read_image(found, span, reporter)); });
+  }
+  return heights;
+}
+
 std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::path& directory,
                                           Span span, std::optional<double> smooth,
                                           Reporter* reporter) {
@@ -185,7 +211,7 @@ std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::pat
                                          abbreviated(name), most_angles),
                   .code = ErrorCode::limit};
   }
-  try {
+  return made_of_file(span, [&] {
     const std::string shown = found.shown.string();
     const OpenMeshPart open = [&](const std::string& part) {
       return part_of_mesh(part, found.shown.parent_path(), span);
@@ -199,9 +225,7 @@ std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::pat
         reporter->warning(span, printable(fmt::format("'{}': {}", shown, warning)));
     }
     return meshes[smooth] = std::move(mesh);
-  } catch (const Error& error) {
-    throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
-  }
+  });
 }
 
 std::shared_ptr<const Font> Files::font(const std::string& name, const fs::path& directory,
@@ -209,12 +233,10 @@ std::shared_ptr<const Font> Files::font(const std::string& name, const fs::path&
   const Found found = find(name, directory, span);
   std::shared_ptr<const Font>& font = fonts_[found.path];
   if (!font) {
-    try {
-      font = found.content ? decode_font(*found.content, found.shown.string())
+    font = made_of_file(span, [&] {
+      return found.content ? decode_font(*found.content, found.shown.string())
                            : read_font(found.shown);
-    } catch (const Error& error) {
-      throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
-    }
+    });
   }
   return font;
 }

@@ -47,6 +47,11 @@ class Files {
                                      const std::filesystem::path& directory, Span span,
                                      Reporter& reporter);
 
+  /// Returns the heights that an image has, which is decoded once a run for them.
+  std::shared_ptr<const HeightGrid> heights(const std::string& name,
+                                            const std::filesystem::path& directory, Span span,
+                                            Reporter& reporter);
+
   /// Returns the entity of a mesh file, which is read once a run for each `smooth` (see
   /// MeshAttributes, in radians). Warnings go to the reporter, if there is one.
   std::shared_ptr<const Entity> mesh(const std::string& name,
@@ -71,6 +76,7 @@ class Files {
   using SmoothMeshes = std::map<std::optional<double>, std::shared_ptr<const Entity>>;
   std::map<std::filesystem::path, SmoothMeshes> meshes_;
   std::map<std::filesystem::path, std::shared_ptr<const Font>> fonts_;
+  std::map<std::filesystem::path, std::shared_ptr<const HeightGrid>> heights_;
 };
 
 /// Returns the whole of a regular file, or nothing if it cannot be read or has more than

@@ -59,6 +59,31 @@ Value finish_mesh(MeshOfFile mesh, const ObjectSite& site) {
   return mesh.material ? entity->with_material(*mesh.material) : *entity;
 }
 
+/// A HeightFieldOfScript has its heights in one of two forms.
+struct HeightFieldOfScript {
+  HeightImage image;
+  HeightRows rows;
+  Vec3 corner_a{0, 0, 0};
+  Vec3 corner_b{0, 0, 0};
+  std::optional<SharedMaterial> material;
+};
+
+Value finish_height_field(HeightFieldOfScript given, const ObjectSite& site) {
+  site.context.count_made(site.name_span);
+  if ((given.image.grid == nullptr) == (given.rows.grid == nullptr)) {
+    fail(site.name_span, "HeightField needs one of the attributes 'image' and 'heights'");
+  }
+  Box box{.corner_a = given.corner_a, .corner_b = given.corner_b};
+  const std::optional<NoSize> no_size = give_size(box);
+  Entity entity(HeightField{.heights = given.image.grid ? given.image.grid : given.rows.grid,
+                            .corner_a = box.corner_a,
+                            .corner_b = box.corner_b,
+                            .material = std::move(given.material)});
+  if (!no_size) return entity;
+  warn_of(*no_size, site);
+  return empty_entity();
+}
+
 std::vector<ObjectType> entities() {
   return {
       entity<Sphere>("Sphere",
@@ -90,6 +115,14 @@ std::vector<ObjectType> entities() {
       entity<Revolution>("Revolution", {required("profile", &Revolution::profile),
                                         degrees("angle", &Revolution::angle, "360",
                                                 "must be greater than 0 and at most 360 degrees")}),
+      object<HeightFieldOfScript>(
+          "HeightField",
+          {attribute("image", &HeightFieldOfScript::image, "none"),
+           attribute("heights", &HeightFieldOfScript::rows, "none"),
+           required("cornerA", &HeightFieldOfScript::corner_a),
+           required("cornerB", &HeightFieldOfScript::corner_b),
+           attribute("material", &HeightFieldOfScript::material, "a grey of 0.5")},
+          finish_height_field),
       object<MeshOfFile>("Mesh",
                          {required("file", &MeshOfFile::file),
                           degrees("smooth", &MeshOfFile::smooth, "as the file has it",

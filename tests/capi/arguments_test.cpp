@@ -72,6 +72,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_mesh mesh;
   crt_mesh_init(&mesh, sizeof mesh);
   mesh.vertex_count = 1;
+  const double heights[4] = {0.5, 1, 0, 0.25};
 
   check_all({
       {"out", [&] { return crt_sphere_create(z, 1, nullptr); }},
@@ -96,6 +97,13 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"profile", [&] { return crt_profile_move_to(nullptr, 0, 0); }},
       {"profile", [&] { return crt_profile_line_to(nullptr, 0, 0); }},
       {"profile", [&] { return crt_profile_arc_to(nullptr, 0, 0, 1); }},
+      {"heights", [&] { return crt_height_field_create(nullptr, 2, 2, z, o, &entity); }},
+      {"columns", [&] { return crt_height_field_create(heights, 1, 2, z, o, &entity); }},
+      {"rows", [&] { return crt_height_field_create(heights, 2, 1, z, o, &entity); }},
+      {"heights", [&] { return crt_height_field_create(heights, ~0u, ~0u, z, o, &entity); }},
+      {"corner_a", [&] { return crt_height_field_create(heights, 2, 2, nullptr, o, &entity); }},
+      {"corner_b", [&] { return crt_height_field_create(heights, 2, 2, z, nullptr, &entity); }},
+      {"out", [&] { return crt_height_field_create(heights, 2, 2, z, o, nullptr); }},
       {"axis", [&] { return crt_torus_create(z, nullptr, 1, 0.1, &entity); }},
       {"center", [&] { return crt_disc_create(nullptr, o, 1, &entity); }},
       {"c", [&] { return crt_triangle_create(z, o, nullptr, &entity); }},
@@ -231,6 +239,7 @@ TEST_CASE("what has no status answers NULL with nothing") {
 TEST_CASE("a number that is not finite is refused in every place, with its name") {
   const EntityHandle ball = sphere(zero, 1);
   const SceneHandle scene = new_scene();
+  const double heights[4] = {0.5, 1, 0, 0.25};
   const ProfileHandle square = square_profile();
   for (const double bad : {not_a_number, infinity, -infinity}) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -256,6 +265,9 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
           {"to", [&] { return crt_extrusion_create(square.get(), z, p, &out); }},
           {"from", [&] { return crt_revolution_create(square.get(), p, z, 1, &out); }},
           {"to", [&] { return crt_revolution_create(square.get(), z, p, 1, &out); }},
+          {"corner_a", [&] { return crt_height_field_create(heights, 2, 2, p, z, &out); }},
+          {"corner_b", [&] { return crt_height_field_create(heights, 2, 2, z, p, &out); }},
+          {"heights", [&] { return crt_height_field_create(corners.data(), 3, 2, z, u, &out); }},
           {"axis", [&] { return crt_torus_create(z, p, 1, 0.1, &out); }},
           {"normal", [&] { return crt_disc_create(z, p, 1, &out); }},
           {"b", [&] { return crt_triangle_create(z, p, u, &out); }},

@@ -96,7 +96,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(13);
+  const std::uint32_t kind = input_.below(14);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -139,6 +139,11 @@ void Session::make_primitive() {
                                  : crt_revolution_create(profile, a.data(), c.data(), b[0], out);
         crt_profile_release(profile);
         return status;
+      }
+      case 12: {
+        const double heights[6] = {r, s, a[0], b[1], 0.5, 1};
+        return crt_height_field_create(heights, input_.below(4), input_.below(3), b.data(),
+                                       c.data(), out);
       }
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};

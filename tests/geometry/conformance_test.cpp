@@ -25,6 +25,7 @@
 #include "crt/transform.hpp"
 #include "crt/validate.hpp"
 #include "geometry/exact_tools.hpp"
+#include "geometry/height_fields.hpp"
 #include "geometry/meshes.hpp"
 #include "geometry/oracle.hpp"
 #include "geometry/profiles.hpp"
@@ -64,6 +65,14 @@ void set_at_random(Revolution& revolution, std::size_t /*bytes*/, Random& random
   revolution.profile =
       random.one_in(2) ? whole_turned_profile(random) : random_turned_profile(random, 2);
   revolution.angle = random_turn(random);
+}
+
+void set_at_random(HeightField& field, std::size_t /*bytes*/, Random& random) {
+  field.heights = random_grid(random);
+  for (int axis = 0; axis < 3; ++axis) {
+    field.corner_a[axis] = random_field(random);
+    field.corner_b[axis] = random_field(random);
+  }
 }
 
 /// Returns a valid instance of the primitive that stands at this place in the list.

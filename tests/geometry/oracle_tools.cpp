@@ -129,6 +129,12 @@ Revolution times(Revolution s, double k) {
   s.profile = scaled_profile(*s.profile, k);
   return s;
 }
+
+HeightField times(HeightField s, double k) {
+  s.corner_a *= k;
+  s.corner_b *= k;
+  return s;
+}
 Triangle times(Triangle s, double k) {
   s.a *= k;
   s.b *= k;

@@ -42,14 +42,16 @@ TEST_CASE(
   CHECK(argument(Mesh{}) == "triangles");
   CHECK(argument(Extrusion{}) == "profile");
   CHECK(argument(Revolution{}) == "profile");
+  CHECK(argument(HeightField{}) == "heights");
   Random random(1);
   const TriangleList list = ball_mesh(random, 1, 0);
   const Mesh mesh{.triangles = mesh_triangles(list.positions, list.triangles)};
   const Extrusion extrusion{.profile = profile_of({rectangle(0, 0, 1, 1)})};
   const Revolution revolution{.profile = extrusion.profile};
-  const Primitive all[] = {Sphere{}, Box{},     Plane{},   HalfPlane{}, Cylinder{},
-                           Cone{},   Torus{},   Disc{},    Triangle{},  Capsule{},
-                           mesh,     extrusion, revolution};
+  const HeightField field{.heights = make_height_grid({0, 0.5, 1, 0}, 2, 2)};
+  const Primitive all[] = {Sphere{}, Box{},     Plane{},    HalfPlane{}, Cylinder{},
+                           Cone{},   Torus{},   Disc{},     Triangle{},  Capsule{},
+                           mesh,     extrusion, revolution, field};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
@@ -115,6 +117,13 @@ TEST_CASE("every field of every primitive is checked") {
   CHECK(argument(Revolution{.profile = square, .angle = 0}) == "angle");
   CHECK(argument(Revolution{.profile = square, .angle = 6.3}) == "angle");
   CHECK(argument(Revolution{.profile = square, .angle = not_a_number}) == "angle");
+  const auto grid = make_height_grid({1, 1, 1, 1, 1, 1}, 3, 2);
+  CHECK(argument(HeightField{.heights = grid, .corner_a = bad}) == "corner_a");
+  CHECK(argument(HeightField{.heights = grid, .corner_b = bad}) == "corner_b");
+  CHECK(argument(HeightField{.heights = grid, .corner_b = {1, 0, 1}}) == "corner_b");
+  const Vec3 next(std::nextafter(1.0, 2.0), 1, 1);
+  CHECK(argument(HeightField{.heights = grid, .corner_a = {1, 0, 0}, .corner_b = next}) ==
+        "corner_b");
   CHECK(argument(Torus{.center = bad}) == "center");
   CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
   CHECK(argument(Torus{.radius = 0}) == "radius");

@@ -128,7 +128,7 @@ using Equations = Few<Polynomial<Number>, most_equations>;
 inline constexpr std::ptrdiff_t cylinder_equations = 3;
 
 // A solid is where all its polynomials are negative, except the torus, the capsule, the extrusion
-// and the revolution.
+// the revolution and the height field.
 
 // A truncated cone about `axis` = to - from, A = axis . axis, k = radius2 - radius, w = p - from,
 // h = w . axis: F = |w x axis|^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
@@ -266,6 +266,24 @@ Equations<Number> equations(const Revolution& revolution, const ExactLine<Number
   return result;
 }
 
+// A height field has the equations of its sides, of its bottom and of two triangles on top.
+template <class Number>
+Equations<Number> equations(const HeightField& field, const ExactLine<Number>& line) {
+  const CornerField corners(field);
+  Equations<Number> result;
+  for (const int axis : {0, 2, 1}) {
+    Vec3 normal(0);
+    normal[axis] = 1;
+    const NumberVec<Number> across = exactly<Number>(normal);
+    result.push_back(-Relative(line, corners.lower).along(across));
+    if (axis != 1) result.push_back(Relative(line, corners.upper).along(across));
+  }
+  for (const Triangle& triangle : corners.triangles()) {
+    result.push_back(Relative(line, triangle.a).along(normal_of<Number>(triangle)));
+  }
+  return result;
+}
+
 template <class Number>
 Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>& line) {
   return std::visit([&](const auto& p) { return equations(p, line); }, primitive);
@@ -309,6 +327,23 @@ bool is_inside_revolution(const Revolution& revolution, const Signs& signs) {
   return is_more_than_half(revolution) ? first || last : first && last;
 }
 
+/// Says whether a point is in a height field, by the signs of its equations. The sign is 0 of a
+/// plane that the line is in, which then is moved to larger x, or else to larger y.
+template <class Signs>
+bool is_in_field(const CornerField& field, const Signs& signs) {
+  constexpr std::array<int, 5> moved = {-1, 1, -1, 1, -1};
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if ((signs[i] != 0 ? signs[i] : moved[i]) > 0) return false;
+  }
+  const auto& tops = field.tops;
+  const std::array<double, 2> drops = {tops[1].y - tops[2].y, tops[0].y - tops[3].y};
+  const auto is_below = [&](std::size_t triangle) {
+    const int sign = signs[moved.size() + triangle];
+    return sign != 0 ? sign < 0 : drops[triangle] < 0;
+  };
+  return field.is_ridge() ? is_below(0) && is_below(1) : is_below(0) || is_below(1);
+}
+
 /// Says whether a point is inside a solid, by the signs of its equations there.
 template <class Signs>
 bool is_inside(const Primitive& solid, const Signs& signs) {
@@ -327,6 +362,9 @@ bool is_inside(const Primitive& solid, const Signs& signs) {
   }
   if (const auto* revolution = std::get_if<Revolution>(&solid)) {
     return is_inside_revolution(*revolution, signs);
+  }
+  if (const auto* field = std::get_if<HeightField>(&solid)) {
+    return is_in_field(CornerField(*field), signs);
   }
   return std::all_of(signs.begin(), signs.end(), negative);
 }

@@ -109,6 +109,14 @@ double gradient(const Revolution& revolution, std::size_t which, const ExactLine
   return 2 * std::abs(along.y) * rho * glm::length(along);
 }
 
+double gradient(const HeightField& field, std::size_t which, const ExactLine<Number>&,
+                const Number&) {
+  constexpr std::size_t first_top = 5;
+  if (which < first_top) return 1;
+  const Triangle triangle = CornerField(field).triangles()[which - first_top];
+  return glm::length(rounded(normal_of<Number>(triangle)));
+}
+
 /// Returns where a line meets a surface's plane, relative to its position, times `w` (so that it is
 /// exact).
 template <class Number>

@@ -326,6 +326,11 @@ std::string description(const TestRay& ray) {
       const auto& [a, b, c] = profile.corners;
       return fmt::format("revolution {} {} {} bulge {:a} angle {:a}", text(a), text(b), text(c),
                          p.profile->contours()[0][0].bulge, p.angle);
+    } else if constexpr (std::is_same_v<P, HeightField>) {
+      const CornerField corners(p);
+      const auto& [a, b, c, d] = corners.tops;
+      return fmt::format("height field {} {} tops {:a} {:a} {:a} {:a}", text(corners.lower),
+                         text(corners.upper), a.y, b.y, c.y, d.y);
     } else if constexpr (std::is_same_v<P, Mesh>)
       return fmt::format("mesh of {} triangles", p.triangles->size());
     else

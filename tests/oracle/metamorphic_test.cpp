@@ -25,7 +25,7 @@ Primitive scaled(Primitive primitive, double factor) {
         if constexpr (std::is_same_v<P, Sphere> || std::is_same_v<P, Disc>) {
           p.center *= factor;
           p.radius *= factor;
-        } else if constexpr (std::is_same_v<P, Box>) {
+        } else if constexpr (std::is_same_v<P, Box> || std::is_same_v<P, HeightField>) {
           p.corner_a *= factor;
           p.corner_b *= factor;
         } else if constexpr (std::is_same_v<P, Plane> || std::is_same_v<P, HalfPlane>) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/height_fields.hpp"
 #include "oracle/number_vec.hpp"
 
 namespace crt::test {
@@ -99,6 +100,16 @@ bool meet(const Triangle& triangle, const Vec3& o, const Vec3& d, core::Crossing
 /// Intersects each triangle by itself.
 bool meet(const Mesh& mesh, const Vec3& o, const Vec3& d, core::CrossingList& out) {
   for (const Triangle& triangle : triangles_of(mesh)) meet(triangle, o, d, out);
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  return false;
+}
+
+bool meet(const HeightField& field, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const TriangleList list = mesh_of(field);
+  for (const auto& [a, b, c] : list.triangles) {
+    meet(Triangle{.a = list.positions[a], .b = list.positions[b], .c = list.positions[c]}, o, d,
+         out);
+  }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
   return false;
 }

@@ -7,9 +7,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/geometry/height_field/grid.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/profile/profile.hpp"
 #include "core/geometry/revolution/turned_walls.hpp"
+#include "core/math/double_double.hpp"
 #include "crt/error.hpp"
 #include "crt/primitives.hpp"
 #include "oracle/interval.hpp"
@@ -145,6 +147,36 @@ struct ArchedTriangle {
   NumberVec<Number> normal(std::size_t side) const {
     const NumberVec<Number> along = exactly<Number>(to(side)) - exactly<Number>(from(side));
     return {along[1], -along[0], Number(0.0)};
+  }
+};
+
+/// A CornerField is a height field of this oracle: four heights, which two triangles join.
+struct CornerField {
+  Vec3 lower;
+  Vec3 upper;
+  /// The first and the second triangle have the diagonal from the first corner to the third.
+  std::array<Vec3, 4> tops;
+
+  explicit CornerField(const HeightField& field)
+      : lower(glm::min(field.corner_a, field.corner_b)),
+        upper(glm::max(field.corner_a, field.corner_b)) {
+    const auto top = [&](std::uint32_t column, std::uint32_t row) {
+      const double height = field.heights->height(column, row);
+      const double y = std::min(lower.y + height * (upper.y - lower.y), upper.y);
+      return Vec3(column == 0 ? lower.x : upper.x, height == 1 ? upper.y : y,
+                  row == 0 ? lower.z : upper.z);
+    };
+    tops = {top(0, 0), top(0, 1), top(1, 1), top(1, 0)};
+  }
+  std::array<Triangle, 2> triangles() const {
+    return {Triangle{.a = tops[0], .b = tops[1], .c = tops[2]},
+            Triangle{.a = tops[0], .b = tops[2], .c = tops[3]}};
+  }
+  /// Returns whether the diagonal is above the other corners, or in one plane with them.
+  bool is_ridge() const {
+    const core::DoubleDouble diagonal = core::two_sum(tops[0].y, tops[2].y);
+    const core::DoubleDouble other = core::two_sum(tops[1].y, tops[3].y);
+    return diagonal.hi != other.hi ? diagonal.hi > other.hi : diagonal.lo >= other.lo;
   }
 };
 

@@ -259,6 +259,50 @@ Vec3 edge(Counted& random, const Mesh& mesh) {
   return edge(random, any_triangle(random, mesh));
 }
 
+void make(Counted& random, const Vec3& at, double size, HeightField& field) {
+  std::vector<double> heights(4);
+  for (double& height : heights) height = random.uniform(0, 1);
+  // Some heights are at the bottom or at the top.
+  heights[static_cast<std::size_t>(random.integer(0, 3))] = random.integer(0, 2) * 0.5;
+  field.heights = make_height_grid(heights, 2, 2);
+  Box box;
+  make(random, at, size, box);
+  field.corner_a = box.corner_a;
+  field.corner_b = box.corner_b;
+}
+/// Returns a spot on top, on the bottom or below an edge of the top.
+Spot spot(Counted& random, const HeightField& field) {
+  const CornerField corners(field);
+  const auto which = static_cast<std::size_t>(random.integer(0, 6));
+  if (which < 2) return spot(random, corners.triangles()[which]);
+  Spot result = spot(random, Box{.corner_a = corners.lower, .corner_b = corners.upper});
+  const double share = random.uniform(0, 1);
+  if (which == 2) {
+    result.point.y = corners.lower.y;
+    result.normal = Vec3(0, 1, 0);
+    result.parallel = glm::normalize(Vec3(random.sign(), 0, random.sign()));
+    return result;
+  }
+  const Vec3& from = corners.tops[which - 3];
+  const Vec3& to = corners.tops[(which - 2) % 4];
+  result.point = from + share * (to - from);
+  result.point.y = corners.lower.y + random.uniform(0, 1) * (result.point.y - corners.lower.y);
+  result.normal = from.x == to.x ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+  result.parallel = Vec3(0, 1, 0);
+  return result;
+}
+/// Returns a point of an edge or a corner, on top or on the bottom.
+Vec3 edge(Counted& random, const HeightField& field) {
+  const CornerField corners(field);
+  const auto first = static_cast<std::size_t>(random.integer(0, 3));
+  const auto second = (first + static_cast<std::size_t>(random.integer(0, 2))) % 4;
+  const Vec3& from = corners.tops[first];
+  const Vec3& to = corners.tops[second];
+  Vec3 point = from + random.uniform(0, 1) * (to - from);
+  if (random.integer(0, 2) == 0) point.y = corners.lower.y;
+  return point;
+}
+
 void make(Counted& random, const Vec3& at, double size, Extrusion& extrusion) {
   std::array<Vec3, 3> offsets{};
   for (Vec3& offset : offsets) offset = size * random.in_cube();

@@ -135,6 +135,25 @@ double outside(const Revolution& revolution, const IntervalVec& p) {
                   is_more_than_half(revolution) ? std::min(first, last) : std::max(first, last));
 }
 
+double outside(const HeightField& field, const IntervalVec& p) {
+  const CornerField corners(field);
+  double beside = (Interval(corners.lower.y) - p[1]).value();
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{2}}) {
+    const auto i = static_cast<int>(axis);
+    beside = std::max({beside, (Interval(corners.lower[i]) - p[axis]).value(),
+                       (p[axis] - Interval(corners.upper[i])).value()});
+  }
+  std::array<double, 2> above{};
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    const Triangle triangle = corners.triangles()[i];
+    const IntervalVec normal = normal_of<Interval>(triangle);
+    above[i] = (dot(p - exactly<Interval>(triangle.a), normal) / length(normal)).value();
+  }
+  const double top =
+      corners.is_ridge() ? std::max(above[0], above[1]) : std::min(above[0], above[1]);
+  return std::max(beside, top);
+}
+
 Vec3 middle(const Vec3& a, const Vec3& b) {
   return a / 2.0 + b / 2.0;
 }
@@ -191,6 +210,11 @@ Ball ball_of(const Revolution& revolution) {
   return {{0, middle(box.lower, box.upper).y, 0},
           std::max(std::hypot(box.upper.x, (box.upper.y - box.lower.y) / 2),
                    std::abs(arc.center.x) + arc.radius)};
+}
+
+Ball ball_of(const HeightField& field) {
+  const Vec3 offset = field.corner_b - field.corner_a;
+  return {middle(field.corner_a, field.corner_b), glm::length(offset) / 2};
 }
 Ball ball_of(const Mesh& mesh) {
   const core::Bounds& box = mesh.triangles->bounds();

@@ -39,6 +39,8 @@ class Primitives(unittest.TestCase):
                 crt.Revolution([(1, -1), (2, -1), (2, 1), (1, 1)], (3, 0, 0), (3, 0, 1), 270),
                 [x + 1, x + 2],
             ),
+            (crt.HeightField([[1, 1], [1, 1]], (1, 1, 1), (-2, -1, -1)), [x - 2, x + 1]),
+            (crt.HeightField([[0, 1, 0], [0, 1, 0]], (-2, -2, -2), (2, 2, 2)), [x - 1, x + 1]),
             (crt.Disc((1, 0, 0), (1, 0, 0), 1), [x + 1]),
             (crt.Triangle((1, -1, -1), (1, 2, -1), (1, 0, 2)), [x + 1]),
             (crt.Mesh([[1, -1, -1], [1, 2, -1], [1, 0, 2]], [[0, 1, 2]]), [x + 1]),
@@ -97,6 +99,13 @@ class Primitives(unittest.TestCase):
         ):
             with self.assertRaises((ValueError, crt.Error), msg=wrong):
                 crt.Mesh(corners, triangles, **wrong)
+    def test_a_height_field_takes_rows_of_numbers_from_0_to_1(self):
+        for wrong in ([1, 2], [[1, 2], [3]], [["a"]], np.ones((2, 2, 2))):
+            with self.assertRaises((ValueError, TypeError)):
+                crt.HeightField(wrong, (0, 0, 0), (1, 1, 1))
+        for wrong in ([[1]], [[1, 2], [0, 0]], [[0, 0], [0, float("nan")]], np.ones((0, 5))):
+            with self.assertRaises(crt.Error):
+                crt.HeightField(wrong, (0, 0, 0), (1, 1, 1))
 
     def test_a_mesh_file_is_read_and_a_broken_one_says_where(self):
         with tempfile.TemporaryDirectory() as folder:

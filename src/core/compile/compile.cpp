@@ -9,6 +9,7 @@
 #include "core/compile/duplicates.hpp"
 #include "core/compile/flatten.hpp"
 #include "core/compile/surface_table.hpp"
+#include "core/compile/unlisted_faces.hpp"
 #include "core/tasks/parallel.hpp"
 #include "crt/error.hpp"
 
@@ -98,7 +99,7 @@ std::unique_ptr<const SharedFaces> shared_faces_of(const Leaf& leaf,
   SharedFaces shared;
   for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
     const std::uint32_t surface = faces[leaf.first_face + face].surface;
-    if (surface < leaf.first_face) shared.faces.push_back({surface, face});
+    if (surface < leaf.first_face) shared.faces.push_back({surface, leaf.face_at(face)});
   }
   if (shared.faces.empty()) return nullptr;
   std::sort(shared.faces.begin(), shared.faces.end(), [](const auto& a, const auto& b) {
@@ -188,7 +189,7 @@ void Compiler::make_leaves() {
                  const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
                  leaf.plain_sphere =
                      is_plain ? shape_as<SphereShape>(leaf.shape->typed()) : nullptr;
-                 leaf.face_count = leaf.shape->face_count();
+                 leaf.face_count = leaf.shape->listed_face_count();
                  bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
                }
                shape_bytes += bytes;
@@ -197,18 +198,28 @@ void Compiler::make_leaves() {
 }
 
 void Compiler::make_faces() {
+  find_unlisted_faces(result_.leaves, workers_);
   constexpr std::uint64_t most_faces = 0xfffffff0u;
   std::uint64_t count = 0;
+  std::uint64_t unlisted = 0;
+  for (const Leaf& leaf : result_.leaves) {
+    if (leaf.unlisted) unlisted += leaf.shape->face_count();
+  }
   for (Leaf& leaf : result_.leaves) {
     leaf.first_face = static_cast<std::uint32_t>(count);
     count += leaf.face_count;
-    if (count > most_faces) {
+    if (count + unlisted > most_faces) {
       throw Error(ErrorCode::limit,
                   fmt::format("the primitives of the scene have more than {} faces", most_faces),
                   "entities");
     }
   }
   result_.face_surfaces.assign(count, {});
+  for (Leaf& leaf : result_.leaves) {
+    if (!leaf.unlisted) continue;
+    leaf.unlisted->first_surface = static_cast<std::uint32_t>(count);
+    count += leaf.shape->face_count();
+  }
   number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, workers_);
   for (Leaf& leaf : result_.leaves) {
     if (leaf.face_count <= Leaf::few_faces) continue;

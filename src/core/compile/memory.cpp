@@ -2,9 +2,22 @@
 
 namespace crt::core {
 
+namespace {
+
+std::uint64_t unlisted_bytes(const CompiledScene& scene) {
+  std::uint64_t bytes = 0;
+  for (const Leaf& leaf : scene.leaves) {
+    if (leaf.unlisted) bytes += sizeof(UnlistedFaces) + bytes_of(leaf.unlisted->some);
+  }
+  return bytes;
+}
+
+}  // namespace
+
 std::uint64_t primitive_bytes(const CompiledScene& scene) {
   return bytes_of(scene.placements) + bytes_of(scene.leaves) + bytes_of(scene.face_surfaces) +
-         bytes_of(scene.objects) + scene.shape_bytes + scene.transforms.bytes();
+         unlisted_bytes(scene) + bytes_of(scene.objects) + scene.shape_bytes +
+         scene.transforms.bytes();
 }
 
 std::uint64_t csg_bytes(const CompiledScene& scene) {

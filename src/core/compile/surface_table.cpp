@@ -129,7 +129,8 @@ class Numbering {
  private:
   CanonicalSurface surface_of(std::uint32_t leaf_index, std::uint32_t face) const {
     const Leaf& leaf = leaves_[leaf_index];
-    return canonical_surface(leaf.shape->surface(face - leaf.first_face), *leaf.placement);
+    return canonical_surface(leaf.shape->surface(leaf.face_at(face - leaf.first_face)),
+                             *leaf.placement);
   }
 
   void hash_faces(std::uint32_t leaf) {
@@ -180,7 +181,8 @@ class Numbering {
     for (const HashedFace& face : faces) {
       const Leaf& leaf = leaves_[face.leaf];
       surfaces.emplace_back(
-          in_world(leaf.exact->surface(face.face - leaf.first_face), *leaf.placement), face);
+          in_world(leaf.exact->surface(leaf.face_at(face.face - leaf.first_face)), *leaf.placement),
+          face);
     }
     const auto is_before = [](const auto& a, const auto& b) {
       return compared(a.first, b.first) < 0;

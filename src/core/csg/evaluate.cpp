@@ -154,12 +154,12 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   }
   object_ray_.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start);
   // In the exact tier crossings that are near to each other are all opened, to be put in order.
-  bool inside = first_is_enough_ && leaf.face_count > Leaf::few_faces && !exact_
+  bool inside = first_is_enough_ && leaf.has_many_faces() && !exact_
                     ? gather_piece(index, leaf, enter)
                     : gather_crossings(leaf);
   work_.events += work_.leaf_crossings_.size();
   for (const Crossing& crossing : work_.leaf_crossings_) {
-    const FaceSurface& surface = face_surfaces_[leaf.first_face + crossing.face];
+    const FaceSurface surface = leaf.surface_of(crossing.face, face_surfaces_);
     const bool before_box = crossing.t < enter;
     // Before the box nothing of the leaf matters, but the crossing may be in the box for all that
     // is known. (In the exact tier its error is less than what boxes are larger by.)

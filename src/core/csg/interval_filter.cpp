@@ -164,7 +164,7 @@ class IntervalFilter::Search {
         start.surface >= filter_.first_face_ && start.surface < filter_.end_face_;
     if (index >= leaves.size()) return !is_named_here && !filter_.shares_surfaces_;
     const Leaf& leaf = leaves[index];
-    const bool is_shared = faces[leaf.first_face + start.face].shared != FaceSurface::not_shared;
+    const bool is_shared = leaf.surface_of(start.face, faces).shared != FaceSurface::not_shared;
     if (is_shared || !lines_.starts_at_0(lane)) return false;
     const std::span<NearLeaf<Real>> near = near_.leaves();
     const auto found = std::find_if(near.begin(), near.end(),

@@ -12,7 +12,7 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
   if (start.surface == nothing) return {};
   const auto on_face = [&](std::uint32_t face) {
     const bool outside =
-        (start.side == Side::outside) != face_surfaces[leaf.first_face + face].flipped;
+        (start.side == Side::outside) != leaf.surface_of(face, face_surfaces).flipped;
     return RayStart{.face = face,
                     .side = outside ? Side::outside : Side::inside,
                     .on_face = start.leaf == index && start.face == face};
@@ -20,8 +20,8 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
   if (start.leaf == index) return on_face(start.face);
   // A surface has the number of the first face that lies on it.
   if (start.surface >= leaf.first_face) {
-    const std::uint32_t face = start.surface - leaf.first_face;
-    return face < leaf.face_count ? on_face(face) : RayStart{};
+    const std::uint32_t place = start.surface - leaf.first_face;
+    return place < leaf.face_count ? on_face(leaf.face_at(place)) : RayStart{};
   }
   if (leaf.shared_faces != nullptr) {
     const auto& faces = leaf.shared_faces->faces;
@@ -32,8 +32,10 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
     return is_found ? on_face(found->face) : RayStart{};
   }
   if (leaf.face_count > Leaf::few_faces) return {};
-  for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
-    if (face_surfaces[leaf.first_face + face].surface == start.surface) return on_face(face);
+  for (std::uint32_t place = 0; place < leaf.face_count; ++place) {
+    if (face_surfaces[leaf.first_face + place].surface == start.surface) {
+      return on_face(leaf.face_at(place));
+    }
   }
   return {};
 }

@@ -8,7 +8,10 @@
 // solid.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "core/csg/heavy_paths.hpp"
@@ -43,6 +46,14 @@ struct SharedFaces {
   std::vector<Face> faces;
 };
 
+/// UnlistedFaces says which faces of a leaf of very many are not in the table of face surfaces.
+/// Each of them is alone on its surface, for all that others need to know.
+struct UnlistedFaces {
+  std::uint32_t begin = 0;          ///< faces before this are listed
+  std::vector<std::uint32_t> some;  ///< some of the others are listed behind those, in order
+  std::uint32_t first_surface = 0;  ///< the number of the surface of face 0, if it were not listed
+};
+
 /// A Leaf is a primitive in its place.
 struct Leaf {
   std::unique_ptr<const Shape> shape;
@@ -57,11 +68,12 @@ struct Leaf {
   std::uint32_t entity_id = 0;
   std::uint32_t part_id = 0;
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces
-  std::uint32_t face_count = 0;
+  std::uint32_t face_count = 0;  ///< how many of them are there
   /// A leaf of more faces than this has its shared faces in a list, if there are any.
   static constexpr std::uint32_t few_faces = 8;
   std::unique_ptr<const SharedFaces> shared_faces;
-  bool has_normals = false;  ///< its facets have normals for shading
+  std::unique_ptr<UnlistedFaces> unlisted;  ///< none if all faces are listed
+  bool has_normals = false;                 ///< its facets have normals for shading
   bool has_materials =
       false;                  ///< its facets have materials of their own, which `material` precedes
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
@@ -75,6 +87,21 @@ struct Leaf {
   std::uint32_t material_count() const {
     if (!has_materials) return 1;
     return 1 + static_cast<std::uint32_t>(shape->facet_attributes()->materials().size());
+  }
+
+  bool has_many_faces() const { return face_count > few_faces || unlisted != nullptr; }
+  /// Returns the face that stands at a place behind first_face in the table.
+  std::uint32_t face_at(std::uint32_t place) const {
+    const bool is_plain = unlisted == nullptr || place < unlisted->begin;
+    return is_plain ? place : unlisted->some[place - unlisted->begin];
+  }
+  /// Returns what the table says of a face, or that it is alone on its surface.
+  FaceSurface surface_of(std::uint32_t face, std::span<const FaceSurface> table) const {
+    if (unlisted == nullptr || face < unlisted->begin) return table[first_face + face];
+    const auto& some = unlisted->some;
+    const auto found = std::lower_bound(some.begin(), some.end(), face);
+    if (found == some.end() || *found != face) return {.surface = unlisted->first_surface + face};
+    return table[first_face + unlisted->begin + static_cast<std::uint32_t>(found - some.begin())];
   }
 };
 

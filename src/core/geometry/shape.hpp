@@ -40,7 +40,7 @@ struct Crossing {
   /// The ray enters the solid; a surface without an inside is met against its normal.
   bool entering = false;
   /// Crossings after this one were left out, as ObjectRay::first_above allows. It is the last that
-  /// is there, and no other can be in its place. Only meshes say so.
+  /// is there, and no other can be in its place. Only meshes and height fields say so.
   bool has_rest = false;
 };
 
@@ -143,6 +143,14 @@ class Shape {
 
   /// Returns what its facets have beyond what rays meet, or null. Only meshes may have any.
   virtual const FacetAttributes* facet_attributes() const { return nullptr; }
+
+  /// Returns how many faces, from the first on, are compared with those of all other shapes. The
+  /// rest are so many, and so rarely coincide with any, that faces_near() finds those that may.
+  virtual std::uint32_t listed_face_count() const { return face_count(); }
+  /// Appends those of the rest that may lie in a plane, {p : normal . p = offset}, and have a point
+  /// in a box. The numbers may be rounded.
+  virtual void faces_near(const Vec3& /*normal*/, double /*offset*/, const Bounds& /*box*/,
+                          std::vector<std::uint32_t>& /*faces*/) const {}
 
   /// Returns the bytes of memory it takes.
   virtual std::size_t bytes() const = 0;

@@ -75,8 +75,8 @@ class Accelerator {
     const IntervalFilter& filter = compiled_.programs[solid.program].filter;
     return filter.empty() ? nullptr : &filter;
   }
-  const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
-    return compiled_.face_surfaces[leaf.first_face + face];
+  FaceSurface face_surface(const Leaf& leaf, std::uint32_t face) const {
+    return leaf.surface_of(face, compiled_.face_surfaces);
   }
   /// Returns the point of a hit that `ray` found, in the space of its leaf; u and v only if asked
   /// for.

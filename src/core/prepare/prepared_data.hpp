@@ -176,7 +176,7 @@ class PreparedData {
   /// Returns the start_point() but for its error.
   StartPoint start_face(const RayHit& hit, Side side) const {
     const Leaf& leaf = leaves_[hit.leaf];
-    const FaceSurface& face = face_surfaces_[leaf.first_face + hit.face];
+    const FaceSurface face = leaf.surface_of(hit.face, face_surfaces_);
     // `side` is that of the object. A cutter and a flipped face each turn it round once.
     if (leaf.complemented != face.flipped) side = opposite(side);
     return {.leaf = hit.leaf, .face = hit.face, .surface = face.surface, .side = side};
