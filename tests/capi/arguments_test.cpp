@@ -413,38 +413,6 @@ TEST_CASE("no rays and no triangles are no trouble") {
   CHECK(out == nullptr);
 }
 
-TEST_CASE("a ray that is none is refused with its index, and no answer is written") {
-  const SceneHandle scene = small_scene();
-  const PreparedHandle prepared = prepare(scene.get());
-  const crt_ray good = {{-0.4, 0, -5}, {0, 0, 1}, 0, infinity};
-  for (const std::size_t count : {std::size_t{10}, std::size_t{5000}}) {
-    std::vector<crt_ray> rays(count, good);
-    rays[count - 3].direction[2] = 0;
-    rays[count - 2].origin[1] = not_a_number;
-    std::vector<crt_hit> hits(count);
-    for (crt_hit& hit : hits) hit.t = 42;
-    CHECK(crt_intersect(prepared.get(), rays.data(), 0, count, hits.data(), 0) ==
-          CRT_ERROR_INVALID_ARGUMENT);
-    CHECK(says("rays[" + std::to_string(count - 3) + "]"));
-    CHECK(says("direction"));
-    for (const crt_hit& hit : hits) CHECK(hit.t == 42);
-    std::vector<std::uint8_t> occluded(count, 42);
-    CHECK(crt_occluded(prepared.get(), rays.data(), 0, count, occluded.data()) ==
-          CRT_ERROR_INVALID_ARGUMENT);
-    CHECK(says("rays[" + std::to_string(count - 3) + "]"));
-    CHECK(says("direction"));
-    for (const std::uint8_t answer : occluded) CHECK(answer == 42);
-    std::vector<double> distances(count, 42);
-    std::vector<std::uint32_t> ids(count, 42);
-    CHECK(crt_distances(prepared.get(), rays.data(), 0, count, distances.data(), ids.data()) ==
-          CRT_ERROR_INVALID_ARGUMENT);
-    CHECK(says("rays[" + std::to_string(count - 3) + "]"));
-    CHECK(says("direction"));
-    for (const double distance : distances) CHECK(distance == 42);
-    for (const std::uint32_t id : ids) CHECK(id == 42);
-  }
-}
-
 TEST_CASE("a failure leaves the result untouched, and success leaves the message") {
   const EntityHandle ball = sphere(zero, 1);
   crt_entity* const before = ball.get();
