@@ -128,8 +128,10 @@ class Prepared(Handle):
         end, 2 and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side,
         1 at their start and 2 at their end. A crt.Extrusion has 0 at its start and 1 at its end,
         and a crt.Revolution where its turn begins and ends. Both have further numbers for their
-        sides. Meshes have the place of the triangle among those with an area. All others have 0. A
-        miss has crt.NO_ENTITY for all three.
+        sides. A crt.HeightField has 0 and 1 across x at its lower and upper end, 2 and 3 across z,
+        4 for its bottom, and further numbers for the triangles of its cells. Meshes have the place
+        of the triangle among those with an area. All others have 0. A miss has crt.NO_ENTITY for
+        all three.
         """
         return _queries.hit_parts(self._handle, Batch(rays, RAY, "rays"))
 

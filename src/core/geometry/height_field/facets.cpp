@@ -63,7 +63,7 @@ Triangle HeightFacets::triangle(std::uint32_t face) const {
     const std::uint32_t cell = (face - first_of_cells) / 2;
     return triangles_of_cell(cell % cells_x_, cell / cells_x_)[(face - first_of_cells) % 2];
   }
-  if (face == bottom) return triangles_of_bottom()[0];
+  if (face == bottom_face) return triangles_of_bottom()[0];
   Vec3 one = bounds_.upper;
   Vec3 other = bounds_.upper;
   const int across = face / 2 == 0 ? 0 : 2;
@@ -84,8 +84,8 @@ bool HeightFacets::are_in_one_plane(std::uint32_t one, std::uint32_t other) cons
 Facing HeightFacets::facing_of(const Item& item) const {
   const double low = bounds_.lower.y;
   const auto& [a, b, c, material] = item.corners;
-  const bool is_known =
-      item.number == bottom ? y_of(grid_->lowest()) > low : a.y > low || b.y > low || c.y > low;
+  const bool is_known = item.number == bottom_face ? y_of(grid_->lowest()) > low
+                                                   : a.y > low || b.y > low || c.y > low;
   return is_known ? Facing::outwards : Facing::unknown;
 }
 
@@ -114,7 +114,7 @@ HeightFacets::Leaf HeightFacets::leaf(const Child& child) const {
       return made_of(triangles_of_side(child.level, child.level / 2 == 0 ? child.z : child.x),
                      child.level, child.level);
     default:
-      return made_of(triangles_of_bottom(), bottom, bottom);
+      return made_of(triangles_of_bottom(), bottom_face, bottom_face);
   }
 }
 

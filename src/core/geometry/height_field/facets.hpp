@@ -29,8 +29,8 @@ namespace crt::core {
 class HeightFacets {
  public:
   static constexpr std::uint32_t side_count = 4;
-  static constexpr std::uint32_t bottom = side_count;
-  static constexpr std::uint32_t first_of_cells = bottom + 1;
+  static constexpr std::uint32_t bottom_face = side_count;
+  static constexpr std::uint32_t first_of_cells = bottom_face + 1;
 
   /// Takes a field whose corners are valid. Throws Error (invalid_argument) for columns and rows
   /// that have no places of their own.
@@ -50,7 +50,7 @@ class HeightFacets {
   Triangle corners_of_plane(std::uint32_t face) const { return triangle(face); }
   bool are_in_one_plane(std::uint32_t one, std::uint32_t other) const;
   bool are_opposite(std::uint32_t one, std::uint32_t other) const {
-    return (one == bottom) != (other == bottom);
+    return (one == bottom_face) != (other == bottom_face);
   }
 
   /// A RoughPlane has all points where normal . p is `offset`, with rounded numbers.
