@@ -162,11 +162,10 @@ bool TurnedWalls::has_twin(const Crossing& crossing) const {
 PlaceInProfile TurnedWalls::place_of(const Profile::Piece& piece, const Crossing& crossing) const {
   const Vec3 p = ray_.from_center({0, piece.from.y, 0}, crossing.t, crossing.t_low);
   const double x = std::sqrt(p.x * p.x + p.z * p.z);
-  const Vec3 along = piece.to - piece.from;
-  const double size = std::max({x, std::abs(p.y), piece.from.x, largest_component(along)});
   return {.x = x,
           .y = p.y,
-          .error = filter_rounding * size + 2 * crossing.error * largest_component(ray_.direction)};
+          .error = filter_rounding * std::max(x, std::abs(p.y)) +
+                   2 * crossing.error * largest_component(ray_.direction)};
 }
 
 /// Returns whether a crossing with the body of a wall is in the wall, or nothing if rounding leaves
@@ -178,10 +177,13 @@ std::optional<bool> TurnedWalls::is_in_wall(const Profile::Piece& piece,
   const auto if_plain = [](bool is_plain, bool is_in) {
     return is_plain ? std::optional(is_in) : std::nullopt;
   };
-  const auto is_off = [&](double a, double b) { return std::abs(a - b) > place.error; };
+  const auto is_off = [&](double a, double b) {
+    return std::abs(a - b) > place.error + filter_rounding * std::abs(b);
+  };
   if (piece.arc != Profile::no_arc) {
     const double left = along.x * place.y - along.y * (place.x - piece.from.x);
-    const double error = 2 * place.error * (std::abs(along.x) + std::abs(along.y));
+    const double error = 2 * (place.error + filter_rounding * piece.from.x) *
+                         (std::abs(along.x) + std::abs(along.y));
     return if_plain(std::abs(left) > error, (left < 0) == profile_.arcs()[piece.arc].is_right);
   }
   if (along.y == 0) {
