@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory_resource>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/order_of_places.hpp"
@@ -65,8 +66,9 @@ class TurnedWalls {
     return ray_.start.face != no_face && crossing.t == 0 && crossing.error == 0;
   }
   void add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts, bool along_normal);
-  bool meet_plainly();
+  bool are_even() const;
   bool meet_wall(std::uint32_t number);
+  bool has_twin(const Crossing& crossing) const;
   std::optional<bool> is_in_wall(const Profile::Piece& piece, const Crossing& crossing) const;
   PlaceInProfile place_of(const Profile::Piece& piece, const Crossing& crossing) const;
   void meet_ends();
@@ -106,7 +108,9 @@ void TurnedWalls::append() {
                !search.is_along(profile_.pieces()[piece].to);
   });
   if (candidates_.empty()) return;
-  if (!is_plain || !meet_plainly()) {
+  is_plain = is_plain && std::all_of(candidates_.begin(), candidates_.end(),
+                                     [this](std::uint32_t piece) { return meet_wall(piece); });
+  if (!is_plain || !are_even()) {
     walls_.clear();
     meet_exactly();
   }
@@ -123,15 +127,11 @@ void TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask sh
   largest_error_ = std::max(largest_error_, crossing.error);
 }
 
-/// Finds the crossings with all walls. Returns false if rounding leaves one of them open.
-bool TurnedWalls::meet_plainly() {
-  bool is_even = true;
-  for (const std::uint32_t piece : candidates_) {
-    const std::size_t before = walls_.size();
-    if (!meet_wall(piece)) return false;
-    is_even = is_even == ((walls_.size() - before) % 2 == 0);
-  }
-  return is_even;
+/// Returns whether both lines cross an even number of walls.
+bool TurnedWalls::are_even() const {
+  ShiftMask inside = 0;
+  for (const TurnedWall& wall : walls_) inside ^= wall.shifts;
+  return inside == 0;
 }
 
 /// Finds the crossings with a piece, or with its arc. Returns false if rounding leaves them open.
@@ -146,20 +146,26 @@ bool TurnedWalls::meet_wall(std::uint32_t number) {
     // A ray that starts on a face starts on no other that is on the same surface.
     const bool is_start = start.face != no_face && is_at_start(crossing) && ray_.start.on_face;
     const std::optional<bool> is_in = is_start ? start.on_face : is_in_wall(piece, crossing);
-    if (!is_in) return false;
+    if (!is_in || (start.face == no_face && has_twin(crossing))) return false;
     if (*is_in) add(crossing, face_of_wall(number, false), both_shifts, !crossing.entering);
   }
   return true;
 }
 
+/// Returns whether a body is crossed once more so near that rounding may have made both crossings.
+bool TurnedWalls::has_twin(const Crossing& crossing) const {
+  return std::any_of(met_.begin(), met_.end(), [&](const Crossing& other) {
+    return &other != &crossing && std::abs(other.t - crossing.t) <= other.error + crossing.error;
+  });
+}
+
 PlaceInProfile TurnedWalls::place_of(const Profile::Piece& piece, const Crossing& crossing) const {
   const Vec3 p = ray_.from_center({0, piece.from.y, 0}, crossing.t, crossing.t_low);
   const double x = std::sqrt(p.x * p.x + p.z * p.z);
-  const Vec3 along = piece.to - piece.from;
-  const double size = std::max({x, std::abs(p.y), piece.from.x, largest_component(along)});
   return {.x = x,
           .y = p.y,
-          .error = filter_rounding * size + 2 * crossing.error * largest_component(ray_.direction)};
+          .error = filter_rounding * std::max(x, std::abs(p.y)) +
+                   2 * crossing.error * largest_component(ray_.direction)};
 }
 
 /// Returns whether a crossing with the body of a wall is in the wall, or nothing if rounding leaves
@@ -171,10 +177,13 @@ std::optional<bool> TurnedWalls::is_in_wall(const Profile::Piece& piece,
   const auto if_plain = [](bool is_plain, bool is_in) {
     return is_plain ? std::optional(is_in) : std::nullopt;
   };
-  const auto is_off = [&](double a, double b) { return std::abs(a - b) > place.error; };
+  const auto is_off = [&](double a, double b) {
+    return std::abs(a - b) > place.error + filter_rounding * std::abs(b);
+  };
   if (piece.arc != Profile::no_arc) {
     const double left = along.x * place.y - along.y * (place.x - piece.from.x);
-    const double error = 2 * place.error * (std::abs(along.x) + std::abs(along.y));
+    const double error = 2 * (place.error + filter_rounding * piece.from.x) *
+                         (std::abs(along.x) + std::abs(along.y));
     return if_plain(std::abs(left) > error, (left < 0) == profile_.arcs()[piece.arc].is_right);
   }
   if (along.y == 0) {
@@ -211,6 +220,7 @@ void TurnedWalls::give_start(std::uint32_t wall, Crossing& crossing) {
   }
 }
 
+/// Finds the crossings with all walls without rounding.
 void TurnedWalls::meet_exactly() {
   const ExactWalls exact(profile_, tier_.exact());
   std::vector<ExactWall> crossed;
