@@ -76,6 +76,7 @@ void HeightGrid::make_levels() {
 /// Finds the ranges of blocks, level by level.
 void HeightGrid::find_ranges() {
   lowest_ = *std::min_element(heights_.begin(), heights_.end());
+  heights_.reserve(heights_.size() + parts_a_side);  // not twice as many
   heights_.resize(heights_.size() + parts_a_side);
   for (std::uint32_t z = 0; z < levels_[1].depth; ++z) {
     for (std::uint32_t x = 0; x < levels_[1].width; ++x) find_range(x, z);
