@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/vector.hpp"
+
 namespace crt::core {
 
 namespace {
