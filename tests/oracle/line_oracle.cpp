@@ -109,6 +109,7 @@ double gradient(const Revolution& revolution, std::size_t which, const ExactLine
   return 2 * std::abs(along.y) * rho * glm::length(along);
 }
 
+template <class Number>
 double gradient(const HeightField& field, std::size_t which, const ExactLine<Number>&,
                 const Number&) {
   constexpr std::size_t first_top = 5;
