@@ -186,6 +186,7 @@ FUNCTIONS = {
         "const double from[3]",
         "const double to[3]",
         "double angle",
+        "crt_entity** out",
     ),
     "crt_height_field_create": (
         "crt_status",
