@@ -30,8 +30,8 @@ static int thread_count(void) {
 }
 
 static void look(const char* when, int threads_before) {
-  static const char* const unwanted[] = {"libOpenImageIO", "libOpenEXR", "libtiff", "libpng",
-                                         "crt_image_files", "libfreetype"};
+  static const char* const unwanted[] = {"libOpenImageIO", "libOpenEXR",      "libtiff",
+                                         "libpng",         "crt_image_files", "libfreetype"};
   for (size_t i = 0; i < sizeof unwanted / sizeof *unwanted; ++i) {
     if (is_mapped(unwanted[i]) == 0) continue;
     printf("%s: %s is mapped\n", when, unwanted[i]);

@@ -20,7 +20,6 @@ using namespace crt::test;
 
 namespace {
 
-
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 constexpr std::uint32_t scene_count = 20'000;
 #else

@@ -12,7 +12,6 @@ using namespace crt::core;
 
 namespace {
 
-
 constexpr LineSpan whole_line = {-infinity, infinity};
 
 /// Returns where a line enters all leaves that it comes near within a part of it, and NaN for

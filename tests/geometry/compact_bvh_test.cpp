@@ -16,7 +16,6 @@ using crt::test::Random;
 
 namespace {
 
-
 std::vector<Bounds> random_boxes(Random& random, std::size_t count, double scale) {
   std::vector<Bounds> boxes;
   for (std::size_t i = 0; i < count; ++i) {

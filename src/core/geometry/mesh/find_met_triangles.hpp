@@ -36,7 +36,6 @@ class MetTriangles {
   using Leaf = typename Triangles::Leaf;
   using Item = typename Triangles::Item;
 
-
   /// A TreePart is still to be looked at.
   struct TreePart {
     double enter;  ///< where the line comes to it
