@@ -2,24 +2,27 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include <string_view>
+
 #include "oracle/measure.hpp"
 
 using namespace crt::test;
 
 namespace {
 
-// This takes some 50 s of two cores in all. A torus of the exact tier costs a hundred times what
-// others do. A build that is slow by intent gets a twentieth.
+// This takes some 50 s of two cores in all. Tori and revolutions of the exact tier cost up to a
+// hundred times what others do. A build that is slow by intent gets a twentieth.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t rays = 1'000'000;
 #else
 constexpr std::uint64_t rays = 50'000;
 #endif
-constexpr std::uint64_t torus_rays = rays / 10;
+constexpr std::uint64_t slow_rays = rays / 10;
 constexpr std::uint64_t placed_rays = rays / 20;
 
 std::uint64_t rays_for(std::size_t kind) {
-  return name_of_primitive(kind) == "torus" ? torus_rays : rays;
+  const std::string_view name = name_of_primitive(kind);
+  return name == "torus" || name == "revolution" ? slow_rays : rays;
 }
 
 void check(std::size_t kind, std::uint64_t count, const std::vector<Contestant>& tiers,

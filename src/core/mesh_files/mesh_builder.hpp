@@ -74,7 +74,7 @@ class MeshBuilder {
 
   /// Adds a face with at least three corners. Neighbouring corners at one place count once. Throws
   /// RefusedMesh if finding its triangles takes too long.
-  void add_face(const FaceCorners& corners);
+  void add_face(const FaceCorners& face);
   void add_face(std::span<const std::uint32_t> positions) {
     add_face(FaceCorners{.positions = positions});
   }
