@@ -9,7 +9,7 @@ Entity revolved(const std::shared_ptr<const Profile>& profile, const Vec3& from,
   core::check_coordinates("from", from);
   core::check_coordinates("to", to);
   core::check_end("to", from, to);
-  const Entity upright = Revolution{.profile = profile, .angle = angle};
+  Entity upright = Revolution{.profile = profile, .angle = angle};
   const auto& [zero, quarter, along] = core::frame_about(to - from);
   if (along == Vec3(0, 1, 0) && from == Vec3(0)) return upright;
   return upright.transformed({.row_x = {quarter.x, along.x, zero.x},

@@ -169,7 +169,7 @@ HeightFacets::Parts HeightFacets::parts_of(const Child& block) const {
   parts.there = ((1u << columns) - 1) * (one_a_row & ((1u << parts_a_side * rows) - 1));
   if (level > 0) {
     const HeightGrid::Ranges& ranges = grid_->ranges(block.level, block.x, block.z);
-    for (std::uint32_t row = 0; row < parts_a_side; ++row) {
+    for (std::size_t row = 0; row < parts_a_side; ++row) {
       const std::uint16_t* const low = &ranges.low[parts_a_side * row];
       const std::uint16_t* const high = &ranges.high_less_1[parts_a_side * row];
       parts.low[row] = HeightGrid::Ranges::step * lanes_of(low[0], low[1], low[2], low[3]);
@@ -187,7 +187,7 @@ HeightFacets::Parts HeightFacets::parts_of(const Child& block) const {
     low[i] = min(left, right);
     high[i] = max(left, right);
   }
-  for (std::uint32_t row = 0; row < parts_a_side; ++row) {
+  for (std::size_t row = 0; row < parts_a_side; ++row) {
     parts.low[row] = min(low[row], low[row + 1]);
     parts.high[row] = max(high[row], high[row + 1]);
   }
@@ -206,7 +206,7 @@ std::uint32_t HeightFacets::parts_near(
   const Slabs::Layers layers = slabs.layers(bounds_, size_y_);
   const bool is_upwards = layers.along > 0;
   std::uint32_t met = 0;
-  for (std::uint32_t row = 0; row < parts_a_side; ++row) {
+  for (std::size_t row = 0; row < parts_a_side; ++row) {
     LineSpanLanes spans;
     if (slabs.is_steep()) {
       spans = spans_in_row(parts, row, slabs);

@@ -178,6 +178,7 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
   std::vector<Place> places;
   std::vector<RealRoot> roots;
   append_roots(segment.boundary(), roots);
+  places.reserve(roots.size());
   for (RealRoot& root : roots) places.push_back({std::move(root), none});
   roots.clear();
   append_roots(piece_cut.polynomial, roots);

@@ -36,7 +36,7 @@ class ExactWalls {
   ExactWalls(const Profile& profile, const ExactLine& line);
 
   /// Appends the crossings with a piece of the profile and its arc.
-  void meet(std::uint32_t piece, std::vector<ExactWall>& walls) const;
+  void meet(std::uint32_t number, std::vector<ExactWall>& walls) const;
 
  private:
   /// A PieceCut says where the line crosses a straight piece.
