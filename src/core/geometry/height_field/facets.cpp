@@ -209,7 +209,7 @@ std::uint32_t HeightFacets::parts_near(
   for (std::size_t row = 0; row < parts_a_side; ++row) {
     LineSpanLanes spans;
     if (slabs.is_steep()) {
-      spans = spans_in_row(parts, row, slabs);
+      spans = spans_in_row(parts, static_cast<std::uint32_t>(row), slabs);
     } else {
       LineSpan by_z;
       slabs.clip(2, zs[row], zs[row + 1], by_z.enter, by_z.leave);
