@@ -185,13 +185,14 @@ Subject make_crowd(Counted& random, const Vec3& at, double size) {
     const Vec3 place(cell % cells, cell / cells % cells, cell / (cells * cells));
     const Vec3 middle = at + 2 * most_sizes * size * place;
     Primitive part = solid_part(random, middle, size);
-    // A mesh may not have found its place, and a revolution has only one.
+    // A mesh may not have found its place.
     const bool is_elsewhere =
-        (std::holds_alternative<Mesh>(part) || std::holds_alternative<Extrusion>(part) ||
-         std::holds_alternative<Revolution>(part)) &&
+        (std::holds_alternative<Mesh>(part) || std::holds_alternative<Extrusion>(part)) &&
         !(glm::length(center_of(part) - middle) <= 2 * size);
-    if (std::holds_alternative<Plane>(part) || is_elsewhere)
-      part = Sphere{.center = middle, .radius = size};
+    // Planes are in all cells, and so may be revolutions, which are about one axis.
+    const bool is_wide =
+        std::holds_alternative<Plane>(part) || std::holds_alternative<Revolution>(part);
+    if (is_wide || is_elsewhere) part = Sphere{.center = middle, .radius = size};
     crowd.parts.push_back(part);
     crowd.entities.emplace_back(part);
   }
