@@ -34,6 +34,8 @@ crt_camera defaults<crt_camera>();
 template <>
 crt_background defaults<crt_background>();
 template <>
+crt_mesh defaults<crt_mesh>();
+template <>
 crt_settings defaults<crt_settings>();
 template <>
 crt_render_options defaults<crt_render_options>();

@@ -249,9 +249,9 @@ void convert(const Given& given, Context&, SharedMaterial& field) {
 }
 
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field) {
-  const std::string& name = get<String>(given)->text;
-  const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
-  field = context.files.image(name, directory, given.value_span, context.reporter);
+  FileName file;
+  convert(given, context, file);
+  field = context.files.image(file.name, file.directory, file.span, context.reporter);
 }
 
 void convert(const Given& given, Context& context, FileName& field) {
@@ -278,9 +278,9 @@ void convert(const Given& given, Context& context, std::shared_ptr<const Profile
 }
 
 void convert(const Given& given, Context& context, std::shared_ptr<const Font>& field) {
-  const std::string& name = get<String>(given)->text;
-  const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
-  field = context.files.font(name, directory, given.value_span);
+  FileName file;
+  convert(given, context, file);
+  field = context.files.font(file.name, file.directory, file.span);
 }
 
 void convert(const Given& given, Context&, TextAlignment& field) {
@@ -291,9 +291,9 @@ void convert(const Given& given, Context&, TextAlignment& field) {
 }
 
 void convert(const Given& given, Context& context, HeightImage& field) {
-  const std::string& name = get<String>(given)->text;
-  const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
-  field.grid = context.files.heights(name, directory, given.value_span, context.reporter);
+  FileName file;
+  convert(given, context, file);
+  field.grid = context.files.heights(file.name, file.directory, file.span, context.reporter);
 }
 
 void convert(const Given& given, Context& context, HeightRows& field) {

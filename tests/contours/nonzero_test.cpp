@@ -74,6 +74,23 @@ Contour random_contour_of_grid(Random& random) {
   }
 }
 
+/// Returns one to three contours.
+template <class Make>
+std::vector<Contour> some_contours(Random& random, const Make& make) {
+  std::vector<Contour> contours;
+  const double count = std::floor(random.uniform(1, 4));
+  for (double k = 0; k < count; ++k) contours.push_back(make(random));
+  return contours;
+}
+
+/// Checks that the contours by the even-odd rule enclose what those given do by the nonzero rule.
+void check_nonzero(const std::vector<Contour>& contours, Random& random, double size,
+                   double margin) {
+  const std::vector<Contour> returned = nonzero_contours(contours);
+  check_same_region(contours, returned, random, 12, size, margin);
+  if (!returned.empty()) CHECK_NOTHROW(make_profile(returned));
+}
+
 }  // namespace
 
 TEST_CASE("contours that do not meet stay as they are, or go as a whole") {
@@ -115,24 +132,14 @@ TEST_CASE("what several contours cover is one region") {
 TEST_CASE("contours of any shape enclose the same region by the even-odd rule") {
   Random random(3);
   for (int i = 0; i < 250; ++i) {
-    std::vector<Contour> contours;
-    const double count = std::floor(random.uniform(1, 4));
-    for (double k = 0; k < count; ++k) contours.push_back(random_contour(random));
-    const std::vector<Contour> returned = nonzero_contours(contours);
-    check_same_region(contours, returned, random, 12, 2, 2e-3);
-    if (!returned.empty()) CHECK_NOTHROW(make_profile(returned));
+    check_nonzero(some_contours(random, random_contour), random, 2, 2e-3);
   }
 }
 
 TEST_CASE("contours that touch and lie on each other enclose the same region") {
   Random random(4);
   for (int i = 0; i < 400; ++i) {
-    std::vector<Contour> contours;
-    const double count = std::floor(random.uniform(1, 4));
-    for (double k = 0; k < count; ++k) contours.push_back(random_contour_of_grid(random));
-    const std::vector<Contour> returned = nonzero_contours(contours);
-    check_same_region(contours, returned, random, 12, 5, 1e-2);
-    if (!returned.empty()) CHECK_NOTHROW(make_profile(returned));
+    check_nonzero(some_contours(random, random_contour_of_grid), random, 5, 1e-2);
   }
 }
 

@@ -10,8 +10,6 @@
 
 namespace crt::core {
 
-namespace {}  // namespace
-
 IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
                                std::span<const FaceSurface> faces) {
   if (!program.paths.empty()) return;
