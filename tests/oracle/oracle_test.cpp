@@ -25,12 +25,6 @@ std::uint64_t rays_for(std::size_t kind) {
   return name == "torus" || name == "revolution" ? slow_rays : rays;
 }
 
-/// Counts the wrong answers that docs/numerics.md admits: two of the placed rays at corners of
-/// revolutions.
-std::uint64_t known_wrong(std::size_t kind, RayMaker maker) {
-  return maker == make_placed_ray && name_of_primitive(kind) == "revolution" ? 2 : 0;
-}
-
 void check(std::size_t kind, std::uint64_t count, const std::vector<Contestant>& tiers,
            RayMaker maker) {
   const std::string name(name_of_primitive(kind));
@@ -46,7 +40,7 @@ void check(std::size_t kind, std::uint64_t count, const std::vector<Contestant>&
     }
     INFO(failures);
     CHECK(record.hits > count / 3);
-    CHECK(record.wrong <= known_wrong(kind, maker));
+    CHECK(record.wrong == 0);
     CHECK(record.largest_ratio <= 1);
     CHECK(record.largest_claim <= 1);
   }

@@ -67,6 +67,7 @@ class TurnedWalls {
   }
   void add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts, bool along_normal);
   bool are_even() const;
+  bool passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const;
   bool meet_wall(std::uint32_t number);
   bool has_twin(const Crossing& crossing) const;
   std::optional<bool> is_in_wall(const Profile::Piece& piece, const Crossing& crossing) const;
@@ -104,8 +105,7 @@ void TurnedWalls::append() {
   bool is_plain = true;
   search.each(profile_.tree(), [&](std::uint32_t piece) {
     candidates_.push_back(piece);
-    is_plain = is_plain && !search.is_along(profile_.pieces()[piece].from) &&
-               !search.is_along(profile_.pieces()[piece].to);
+    is_plain = is_plain && !passes_corner(search, profile_.pieces()[piece]);
   });
   if (candidates_.empty()) return;
   is_plain = is_plain && std::all_of(candidates_.begin(), candidates_.end(),
@@ -125,6 +125,19 @@ void TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask sh
   walls_.back().crossing.face = face;
   if (is_at_start(crossing)) root_at_start_ = crossing.root;
   largest_error_ = std::max(largest_error_, crossing.error);
+}
+
+/// Returns whether the line passes a corner of a piece in a way that the number of crossings may not
+/// show. A line that is nearly across the axis does so twice. It may pass between the corner that
+/// an arc has and its circle, too, and cross its chord there.
+bool TurnedWalls::passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const {
+  const auto passes = [&](const Vec3& corner) {
+    if (search.is_along(corner)) return true;
+    if (piece.arc == Profile::no_arc) return false;
+    const double gap = profile_.arcs()[piece.arc].margin * largest_component(piece.to - piece.from);
+    return search.comes_near(Bounds{corner, corner}.grown(gap));
+  };
+  return passes(piece.from) || passes(piece.to);
 }
 
 /// Returns whether both lines cross an even number of walls.
