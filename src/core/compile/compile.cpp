@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <tuple>
 
 #include "core/compile/duplicates.hpp"
@@ -110,13 +111,15 @@ std::unique_ptr<const SharedFaces> shared_faces_of(const Leaf& leaf,
 
 class Compiler {
  public:
-  Compiler(std::span<const Entity> entities, Precision precision, const Workers& workers)
-      : precision_(precision), workers_(workers), flat_(flatten(entities, precision, workers)) {
-    if (precision != Precision::exact) return;
-    for (const Entity& entity : entities) result_.entities.push_back(entity.shared_node());
-  }
+  Compiler(FlatScene flat, Precision precision, const Workers& workers)
+      : precision_(precision),
+        workers_(workers),
+        flat_(std::move(flat)),
+        keeps_chains_(precision == Precision::exact || !flat_.instances.empty()) {}
 
   CompiledScene compile();
+  /// Compiles what instances share.
+  CompiledScene compile_prototype();
 
  private:
   void make_placements();
@@ -124,11 +127,15 @@ class Compiler {
   void make_faces();
   void finish_program(CsgProgram& program);
   void finish_programs();
+  void make_prototypes();
+  void finish_instances();
   void finish_objects();
+  Bounds bounds_of(const SceneObject& object) const;
 
   Precision precision_;
   Workers workers_;
   FlatScene flat_;
+  bool keeps_chains_;  ///< whether something refers to the maps of placements later
   CompiledScene result_;
 };
 
@@ -139,6 +146,7 @@ CompiledScene Compiler::compile() {
   flat_.transforms = {};
   make_leaves();
   make_faces();
+  remove_equal_instances(flat_, workers_);
   if (remove_duplicates(flat_, result_.leaves, result_.face_surfaces, workers_)) {
     make_leaves();
     make_faces();
@@ -147,8 +155,57 @@ CompiledScene Compiler::compile() {
   result_.programs = std::move(flat_.programs);
   result_.programs.shrink_to_fit();
   finish_programs();
+  make_prototypes();
+  finish_instances();
   finish_objects();
   return std::move(result_);
+}
+
+CompiledScene Compiler::compile_prototype() {
+  keeps_chains_ = true;
+  result_.chains = flat_.placements;
+  result_.precision = precision_;
+  CompiledScene prototype = compile();
+  for (Leaf& leaf : prototype.leaves) {
+    leaf.plain_sphere = nullptr;  // as instances may move it
+    for (const Vec3& corner : {leaf.bounds.lower, leaf.bounds.upper}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (std::isfinite(corner[axis]))
+          prototype.farthest = std::max(prototype.farthest, std::abs(corner[axis]));
+      }
+    }
+  }
+  return prototype;
+}
+
+void Compiler::make_prototypes() {
+  if (flat_.prototypes.empty()) return;
+  for (const PrototypeSource& source : flat_.prototypes) {
+    workers_.poll();
+    CompiledScene prototype =
+        Compiler(flatten(source, precision_, workers_), precision_, workers_).compile_prototype();
+    // Those of facets stand side by side, so all of them are taken as they stand.
+    const auto first = static_cast<std::uint32_t>(result_.materials.size());
+    result_.materials.insert(result_.materials.end(), prototype.materials.begin(),
+                             prototype.materials.end());
+    for (Leaf& leaf : prototype.leaves) leaf.material += first;
+    prototype.materials.clear();
+    result_.prototypes.push_back(std::make_unique<const CompiledScene>(std::move(prototype)));
+  }
+}
+
+void Compiler::finish_instances() {
+  result_.instances = std::move(flat_.instances);
+  std::uint64_t first_leaf = result_.leaves.size();
+  for (SceneObject& object : flat_.objects) {
+    if (!object.is_instance()) continue;
+    object.first_leaf = static_cast<std::uint32_t>(first_leaf);
+    first_leaf += result_.prototype_of(object).leaves.size();
+    if (first_leaf < nothing) continue;
+    throw Error(ErrorCode::limit,
+                fmt::format("the instances of the scene have more than {} primitives", nothing),
+                "entities");
+  }
 }
 
 void Compiler::make_placements() {
@@ -161,7 +218,7 @@ void Compiler::make_placements() {
                  result_.placements[i] = exact ? Placement(to_world) : Placement(to_world.product);
                }
              });
-  if (exact) result_.transforms = std::move(flat_.transforms);
+  if (keeps_chains_) result_.transforms = std::move(flat_.transforms);
 }
 
 void Compiler::make_leaves() {
@@ -184,6 +241,8 @@ void Compiler::make_leaves() {
                  leaf.part_id = source.part_id;
                  leaf.complemented = source.complemented;
                  leaf.has_materials = source.has_materials;
+                 leaf.takes_entity_id = source.takes_entity_id;
+                 leaf.takes_part_id = source.takes_part_id;
                  const FacetAttributes* const facets = leaf.shape->facet_attributes();
                  leaf.has_normals = facets != nullptr && facets->has_normals();
                  const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
@@ -267,19 +326,34 @@ void Compiler::finish_program(CsgProgram& program) {
 void Compiler::finish_objects() {
   result_.objects.reserve(flat_.objects.size());
   for (SceneObject& object : flat_.objects) {
-    object.bounds = object.is_csg() ? result_.programs[object.program].bounds
-                                    : result_.leaves[object.first_leaf].bounds;
+    object.bounds = bounds_of(object);
     // A surface that is no solid is an object by itself.
     if (!object.solid) result_.leaves[object.first_leaf].of_solid = false;
     if (!object.bounds.empty()) result_.objects.push_back(object);
   }
 }
 
+Bounds Compiler::bounds_of(const SceneObject& object) const {
+  if (object.is_csg()) return result_.programs[object.program].bounds;
+  if (!object.is_instance()) return result_.leaves[object.first_leaf].bounds;
+  const CompiledScene& prototype = result_.prototype_of(object);
+  if (prototype.objects.empty()) return {};
+  const TransformChain* const to_world = result_.instances[object.instance].to_world;
+  const Bounds& bounds = prototype.objects[0].bounds;
+  return to_world == nullptr ? bounds : moved_bounds(to_world->product.rounded(), bounds);
+}
+
 }  // namespace
 
-CompiledScene compile(std::span<const Entity> entities, Precision precision,
-                      const Workers& workers) {
-  return Compiler(entities, precision, workers).compile();
+CompiledScene compile(std::span<const Entity> entities, Precision precision, const Workers& workers,
+                      std::uint64_t max_primitives) {
+  FlatScene flat = flatten(entities, precision, workers, PrimitiveLimit(precision, max_primitives));
+  const bool refers_to_entities = precision == Precision::exact || !flat.instances.empty();
+  CompiledScene result = Compiler(std::move(flat), precision, workers).compile();
+  if (refers_to_entities) {
+    for (const Entity& entity : entities) result.entities.push_back(entity.shared_node());
+  }
+  return result;
 }
 
 }  // namespace crt::core

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "core/compile/part.hpp"
+#include "core/csg/instance.hpp"
 #include "core/csg/program.hpp"
+#include "core/ray/ray_hit.hpp"
 #include "crt/entity.hpp"
 #include "crt/settings.hpp"
 
@@ -16,15 +18,18 @@
 
 namespace crt::core {
 
-/// A SceneObject is what the acceleration structure holds: a lone primitive, or a CSG object with
-/// several leaves.
+/// A SceneObject is what the acceleration structure holds: a lone primitive, a CSG object with
+/// several leaves, or an instance.
 struct SceneObject {
+  /// The leaves of instances have numbers of their own, after those of all others.
   std::uint32_t first_leaf = 0;
-  std::uint32_t program = 0xffffffffu;  ///< index of its CSG program, if it has more than one leaf
-  Bounds bounds;                        ///< in the world
+  std::uint32_t program = 0xffffffffu;   ///< index of its CSG program, if it has more than one leaf
+  std::uint32_t instance = 0xffffffffu;  ///< index of the instance, if it is one
+  Bounds bounds;                         ///< in the world
   bool solid = true;
 
   bool is_csg() const { return program != 0xffffffffu; }
+  bool is_instance() const { return instance != 0xffffffffu; }
 };
 
 struct CompiledScene {
@@ -38,18 +43,49 @@ struct CompiledScene {
   TransformPool transforms;
   std::vector<std::shared_ptr<const EntityNode>> entities;
   std::uint64_t shape_bytes = 0;  ///< of all leaves together
+  std::vector<Instance> instances;
+  /// What instances share has one object each, or none if it is empty. The material numbers of its
+  /// leaves are those of the scene.
+  std::vector<std::unique_ptr<const CompiledScene>> prototypes;
+  std::vector<const TransformChain*> chains;  ///< of a prototype: see PrototypePlacements
+  double farthest = 0;                        ///< of a prototype: likewise
+  Precision precision = Precision::standard;  ///< of a prototype: likewise
 
+  /// Returns the leaves of an object, and of an instance those of its prototype.
   std::span<const Leaf> leaves_of(const SceneObject& object) const {
+    if (object.is_instance()) return prototype_of(object).leaves;
     const std::uint32_t count = object.is_csg() ? programs[object.program].leaf_count() : 1;
     return std::span(leaves).subspan(object.first_leaf, count);
+  }
+  const CompiledScene& prototype_of(const SceneObject& instance_object) const {
+    return *prototypes[instances[instance_object.instance].prototype];
+  }
+  /// Returns the leaf that an object's hit is on.
+  const Leaf& leaf_of(const RayHit& hit) const {
+    if (hit.leaf < leaves.size()) return leaves[hit.leaf];
+    const SceneObject& object = objects[hit.object];
+    return prototype_of(object).leaves[hit.leaf - object.first_leaf];
+  }
+  /// Returns the scene that a hit's leaf is compiled in.
+  const CompiledScene& scene_of(const RayHit& hit) const {
+    return hit.leaf < leaves.size() ? *this : prototype_of(objects[hit.object]);
+  }
+  /// Returns the frame of an object that is an instance.
+  InstanceFrame frame_of(const SceneObject& object, InstancePlacements& cache) const {
+    const CompiledScene& prototype = prototype_of(object);
+    return {instances[object.instance],
+            object.instance,
+            {prototype.placements, prototype.chains, prototype.farthest, prototype.precision},
+            cache};
   }
 };
 
 /// Compiles entities. Unions at the top become objects of their own where their parts are disjoint.
 /// Transforms are composed once, materials and ids are resolved, and faces that coincide get one
 /// surface. It takes O(n log n) on as many threads as `workers` says, and the result is always the
-/// same. Throws Error (limit) if there are more than 2^25 primitives.
+/// same. Throws Error (limit) if there are more than `max_primitives`, or, if that is 0, more than
+/// there is memory for.
 CompiledScene compile(std::span<const Entity> entities, Precision precision = Precision::standard,
-                      const Workers& workers = {});
+                      const Workers& workers = {}, std::uint64_t max_primitives = 0);
 
 }  // namespace crt::core

@@ -17,6 +17,20 @@ namespace crt::core {
 
 namespace {
 
+struct Hash {
+  std::uint64_t value = 0xcbf29ce484222325u;
+
+  void mix(std::uint64_t word) {
+    value = (value ^ word) * 0x9e3779b97f4a7c15u;
+    value ^= value >> 32;
+  }
+  void mix(const Transform& map) {
+    for (const Vec3& v : {map.row_x, map.row_y, map.row_z, map.translation}) {
+      for (int axis = 0; axis < 3; ++axis) mix(std::bit_cast<std::uint64_t>(v[axis] + 0.0));
+    }
+  }
+};
+
 class Duplicates {
  public:
   Duplicates(FlatScene& scene, std::span<const Leaf> leaves, std::span<const FaceSurface> faces,
@@ -121,24 +135,17 @@ bool Duplicates::find_equal_leaves() {
 }
 
 std::uint64_t Duplicates::hash(std::uint32_t leaf) const {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto mix = [&](std::uint64_t word) {
-    hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 32;
-  };
+  Hash hash;
   const Primitive& primitive = *scene_.leaves[leaf].primitive;
-  mix(primitive.index() * 2 + (leaves_[leaf].complemented ? 1 : 0));
+  hash.mix(primitive.index() * 2 + (leaves_[leaf].complemented ? 1 : 0));
   const std::span<const std::byte> bytes = description_of(primitive);
   for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
     std::uint64_t word = 0;
     std::memcpy(&word, &bytes[i], sizeof word);
-    mix(word);
+    hash.mix(word);
   }
-  const Transform& map = leaves_[leaf].placement->to_world();
-  for (const Vec3& v : {map.row_x, map.row_y, map.row_z, map.translation}) {
-    for (int axis = 0; axis < 3; ++axis) mix(std::bit_cast<std::uint64_t>(v[axis] + 0.0));
-  }
-  return hash;
+  hash.mix(leaves_[leaf].placement->to_world());
+  return hash.value;
 }
 
 bool Duplicates::equal(std::uint32_t a, std::uint32_t b) const {
@@ -150,6 +157,7 @@ bool Duplicates::equal(std::uint32_t a, std::uint32_t b) const {
 }
 
 bool Duplicates::is_involved(const SceneObject& object) const {
+  if (object.is_instance()) return false;
   const auto begin = has_equal_.begin() + object.first_leaf;
   return std::find(begin, begin + leaf_count(object), true) != begin + leaf_count(object);
 }
@@ -256,6 +264,7 @@ void Duplicates::compact() {
   scene_.leaves.resize(count);
   scene_.programs_of_leaves.assign(count, no_program);
   for (SceneObject& object : scene_.objects) {
+    if (object.is_instance()) continue;
     object.first_leaf = places[object.first_leaf];
     if (!object.is_csg()) continue;
     CsgProgram& program = scene_.programs[object.program];
@@ -292,6 +301,44 @@ void Duplicates::compact(CsgProgram& program) {
 }
 
 }  // namespace
+
+void remove_equal_instances(FlatScene& scene, const Workers& workers) {
+  struct Hashed {
+    std::uint64_t hash;
+    std::uint32_t object;
+  };
+  std::vector<Hashed> hashed;
+  const auto instance_of = [&](const Hashed& entry) -> const Instance& {
+    return scene.instances[scene.objects[entry.object].instance];
+  };
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    if (!scene.objects[i].is_instance()) continue;
+    const Instance& instance = instance_of({0, i});
+    Hash hash;
+    hash.mix(instance.prototype);
+    if (instance.to_world != nullptr) hash.mix(instance.to_world->product.rounded());
+    hashed.push_back({hash.value, i});
+  }
+  sort_in_parallel(std::span(hashed), workers, [](const Hashed& a, const Hashed& b) {
+    return std::tie(a.hash, a.object) < std::tie(b.hash, b.object);
+  });
+  const auto are_equal = [&](const Hashed& a, const Hashed& b) {
+    const Instance& one = instance_of(a);
+    const Instance& other = instance_of(b);
+    if (a.hash != b.hash || one.prototype != other.prototype) return false;
+    if (one.to_world == other.to_world) return true;
+    return one.to_world != nullptr && other.to_world != nullptr && one.to_world->is_plain() &&
+           other.to_world->is_plain() &&
+           one.to_world->product.rounded() == other.to_world->product.rounded();
+  };
+  std::vector<bool> drops(scene.objects.size(), false);
+  for (std::size_t i = 1; i < hashed.size(); ++i) {
+    // Equal ones follow one another, unless others have their hash, which may hide some.
+    drops[hashed[i].object] = are_equal(hashed[i - 1], hashed[i]);
+  }
+  std::erase_if(scene.objects,
+                [&, index = std::size_t{0}](const SceneObject&) mutable { return drops[index++]; });
+}
 
 bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves,
                        std::span<const FaceSurface> faces, const Workers& workers) {

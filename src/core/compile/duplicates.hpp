@@ -21,4 +21,7 @@ namespace crt::core {
 bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves,
                        std::span<const FaceSurface> faces, const Workers& workers = {});
 
+/// Removes instances that are there already: of one prototype and with one map to the world.
+void remove_equal_instances(FlatScene& scene, const Workers& workers = {});
+
 }  // namespace crt::core

@@ -1,10 +1,13 @@
 #include "core/compile/flatten.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "core/compile/grouping.hpp"
+#include "core/compile/instancing.hpp"
 #include "core/compile/part.hpp"
 #include "core/compile/surface_table.hpp"
 #include "core/geometry/mesh/mesh.hpp"
@@ -13,18 +16,12 @@ namespace crt::core {
 
 namespace {
 
-/// Returns whether a part is the one before it once more. Without this test a = a + a, done n
-/// times, would be 2^n parts.
-bool repeats(const CsgOperation& operation, std::size_t part) {
-  const std::size_t first = operation.op == CsgOperator::difference ? 1 : 0;
-  return part > first && operation.parts[part] == operation.parts[part - 1];
-}
-
 class Flattening {
  public:
   Flattening(Precision precision, const Workers& workers)
       : exact_(precision == Precision::exact), workers_(workers) {}
-  FlatScene flatten(std::span<const Entity> entities);
+  FlatScene flatten(std::span<const Entity> entities, const PrimitiveLimit& limit);
+  FlatScene flatten(const PrototypeSource& prototype);
 
  private:
   /// A Pending is a place in a program that is still to be filled: with `part`, negated if
@@ -35,7 +32,13 @@ class Flattening {
     bool complemented = false;
   };
 
-  void add_entity(const Part& entity);
+  void add_entity(const Part& entity, const PrimitiveLimit& limit);
+  /// Makes objects of solids that are one union, of which some are worth sharing.
+  void add_solids(const PrimitiveLimit& limit);
+  /// Returns the boxes of those parts of solids_ that are shared, by node and in its space.
+  std::unordered_map<const EntityNode*, Bounds> bounds_of_shared() const;
+  void add_instance(const Part& part);
+  std::uint32_t prototype_number(const Part& part);
   void add_group(std::span<const Part> parts);
   void build_program(std::span<const Part> parts, CsgProgram& program);
   void expand(const Pending& pending, CsgProgram& program);
@@ -51,12 +54,16 @@ class Flattening {
 
   bool exact_;
   Workers workers_;
+  Instancing instancing_;
+  Instancing::Count count_;
+  bool is_prototype_ = false;
   FlatScene result_;
   std::uint32_t program_ = no_program;  ///< that leaves are added to
   Transform last_map_;                  ///< of the last placement
   bool last_is_all_ = true;             ///< whether last_map_ is all of it
   std::unordered_map<const Material*, std::uint32_t> material_numbers_;
   std::unordered_map<const FacetAttributes*, std::uint32_t> facet_materials_;
+  std::map<std::pair<const EntityNode*, const Material*>, std::uint32_t> prototype_numbers_;
   const Material* last_material_ = nullptr;
   std::uint32_t last_material_number_ = 0;
   std::optional<SharedMaterial> default_material_;
@@ -67,29 +74,38 @@ class Flattening {
   std::vector<Part> surfaces_;
 };
 
-FlatScene Flattening::flatten(std::span<const Entity> entities) {
-  std::uint64_t count = 0;
-  for (const Entity& entity : entities) {
-    count += entity.node().leaf_count;
-  }
-  result_.leaves.reserve(count);
-  result_.programs_of_leaves.reserve(count);
+FlatScene Flattening::flatten(std::span<const Entity> entities, const PrimitiveLimit& limit) {
+  instancing_ = Instancing(entities);
+  count_ = instancing_.count(entities, PrimitiveLimit::most_numbered);
+  limit.check(count_);
+  std::uint64_t leaves = 0;
+  for (const Entity& entity : entities) leaves += entity.node().leaf_count;
+  leaves = std::min(leaves, count_.primitives);
+  result_.leaves.reserve(leaves);
+  result_.programs_of_leaves.reserve(leaves);
   result_.objects.reserve(entities.size());
+  result_.instances.reserve(count_.instances);
   result_.placements.push_back(nullptr);
   for (std::size_t i = 0; i < entities.size(); ++i) {
     if (entities[i].is_empty()) continue;
     const auto place = static_cast<std::uint32_t>(i);
     const Part part{.node = &entities[i].node(), .id = place, .part_id = place};
-    add_entity(part.unwrapped(result_.transforms));
+    add_entity(part.unwrapped(result_.transforms), limit);
   }
   return std::move(result_);
 }
 
-void Flattening::add_entity(const Part& entity) {
-  if (entity.operation() == nullptr) {
-    add_group(std::span(&entity, 1));
-    return;
-  }
+FlatScene Flattening::flatten(const PrototypeSource& prototype) {
+  is_prototype_ = true;
+  result_.placements.push_back(nullptr);
+  const Part part{.node = prototype.node, .material = prototype.material};
+  add_group(std::span(&part, 1));
+  return std::move(result_);
+}
+
+void Flattening::add_entity(const Part& entity, const PrimitiveLimit& limit) {
+  if (instancing_.is_shared(*entity.node)) return add_instance(entity);
+  if (entity.operation() == nullptr) return add_group(std::span(&entity, 1));
   // These are the parts of nested unions, left to right.
   solids_.clear();
   surfaces_.clear();
@@ -99,7 +115,8 @@ void Flattening::add_entity(const Part& entity) {
     open_.pop_back();
     workers_.poll_at(solids_.size() + surfaces_.size());
     const CsgOperation* operation = part.operation();
-    if (operation != nullptr && operation->op == CsgOperator::set_union) {
+    const bool is_union = operation != nullptr && operation->op == CsgOperator::set_union;
+    if (is_union && !instancing_.is_shared(*part.node)) {
       for (std::size_t i = operation->parts.size(); i-- > 0;) {
         if (repeats(*operation, i)) continue;
         open_.push_back(part.child(operation->parts[i], result_.transforms));
@@ -108,13 +125,64 @@ void Flattening::add_entity(const Part& entity) {
       (part.node->solid ? solids_ : surfaces_).push_back(part);
     }
   }
-  // Solids that cannot touch need not know of each other.
-  std::size_t begin = 0;
-  for (const std::size_t end : disjoint_groups(solids_, workers_)) {
-    add_group(std::span<const Part>(solids_).subspan(begin, end - begin));
-    begin = end;
-  }
+  add_solids(limit);
   for (const Part& surface : surfaces_) add_group(std::span(&surface, 1));
+}
+
+std::unordered_map<const EntityNode*, Bounds> Flattening::bounds_of_shared() const {
+  std::unordered_map<const EntityNode*, Bounds> bounds;
+  for (const Part& part : solids_) {
+    if (!instancing_.is_shared(*part.node)) continue;
+    const auto [entry, added] = bounds.try_emplace(part.node);
+    if (added) entry->second = part_bounds({.node = part.node});
+  }
+  return bounds;
+}
+
+void Flattening::add_solids(const PrimitiveLimit& limit) {
+  const auto shared = bounds_of_shared();
+  const auto bounds_of = [&](const Part& part) {
+    const auto found = shared.find(part.node);
+    if (found == shared.end()) return part_bounds(part);
+    return part.to_world == nullptr ? found->second
+                                    : moved_bounds(part.to_world->product.rounded(), found->second);
+  };
+  // Solids that cannot touch need not know of each other. Others are one object, of which nothing
+  // is shared.
+  std::size_t begin = 0;
+  for (const std::size_t end : disjoint_groups(solids_, bounds_of, workers_)) {
+    const auto group = std::span<const Part>(solids_).subspan(begin, end - begin);
+    begin = end;
+    if (group.size() == 1 && instancing_.is_shared(*group[0].node)) {
+      add_instance(group[0]);
+      continue;
+    }
+    for (const Part& part : group) {
+      if (!instancing_.is_shared(*part.node)) continue;
+      count_.primitives += part.node->primitive_count;
+      limit.check(count_);
+    }
+    add_group(group);
+  }
+}
+
+void Flattening::add_instance(const Part& part) {
+  SceneObject object;
+  object.instance = static_cast<std::uint32_t>(result_.instances.size());
+  result_.objects.push_back(object);
+  result_.instances.push_back({.to_world = part.to_world,
+                               .prototype = prototype_number(part),
+                               .entity_id = part.id,
+                               .part_id = part.part_id,
+                               .id_is_of_all = part.id_is_final});
+}
+
+std::uint32_t Flattening::prototype_number(const Part& part) {
+  const Material* const material = part.material == nullptr ? nullptr : &**part.material;
+  const auto number = static_cast<std::uint32_t>(result_.prototypes.size());
+  const auto [entry, added] = prototype_numbers_.try_emplace({part.node, material}, number);
+  if (added) result_.prototypes.push_back({part.node, part.material});
+  return entry->second;
 }
 
 void Flattening::add_group(std::span<const Part> parts) {
@@ -187,7 +255,9 @@ void Flattening::add_leaf(const Part& part, bool complemented) {
        .entity_id = part.id,
        .part_id = part.part_id,
        .complemented = complemented,
-       .has_materials = has_materials});
+       .has_materials = has_materials,
+       .takes_entity_id = is_prototype_ && !part.id_is_final,
+       .takes_part_id = is_prototype_ && !part.has_part_id});
   result_.programs_of_leaves.push_back(program_);
 }
 
@@ -198,8 +268,8 @@ std::uint32_t Flattening::placement_number(const TransformChain* to_world) {
     const Transform map = to_world->product.rounded();
     // In the exact tier that may not be all of it.
     const bool is_all = !exact_ || to_world->is_plain();
-    if (is_all && map == Transform{}) return 0;
-    if (!is_all || !last_is_all_ || !(map == last_map_)) {
+    if (is_all && map == Transform{} && !is_prototype_) return 0;
+    if (!is_all || !last_is_all_ || !(map == last_map_) || is_prototype_) {
       last_map_ = map;
       last_is_all_ = is_all;
       result_.placements.push_back(to_world);
@@ -243,8 +313,13 @@ std::uint32_t Flattening::material_number(const SharedMaterial* material) {
 
 }  // namespace
 
-FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers) {
-  return Flattening(precision, workers).flatten(entities);
+FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers,
+                  const PrimitiveLimit& limit) {
+  return Flattening(precision, workers).flatten(entities, limit);
+}
+
+FlatScene flatten(const PrototypeSource& prototype, Precision precision, const Workers& workers) {
+  return Flattening(precision, workers).flatten(prototype);
 }
 
 }  // namespace crt::core

@@ -6,7 +6,7 @@
 
 #include "core/compile/compile.hpp"
 #include "core/compile/part.hpp"
-
+#include "core/compile/primitive_limit.hpp"
 #include "core/tasks/workers.hpp"
 
 namespace crt::core {
@@ -19,7 +19,15 @@ struct LeafSource {
   std::uint32_t entity_id = 0;
   std::uint32_t part_id = 0;
   bool complemented = false;
-  bool has_materials = false;  ///< of facets, from the one behind `material` on
+  bool has_materials = false;    ///< of facets, from the one behind `material` on
+  bool takes_entity_id = false;  ///< as in Leaf
+  bool takes_part_id = false;
+};
+
+/// A PrototypeSource is what instances share: a node, with the material of parts without one.
+struct PrototypeSource {
+  const EntityNode* node = nullptr;
+  const SharedMaterial* material = nullptr;
 };
 
 struct FlatScene {
@@ -31,13 +39,18 @@ struct FlatScene {
   std::vector<CsgProgram>
       programs;  ///< nodes and parents of leaves only; an AND needs all_children
   std::vector<SharedMaterial> materials;
+  std::vector<Instance> instances;
+  std::vector<PrototypeSource> prototypes;
 };
 
 /// Marks a node that is an AND until its children are counted.
 inline constexpr std::uint32_t all_children = 0xffffffffu;
 
 /// Walks through the entities without recursion, however deep they are. The entities must outlive
-/// the placements.
-FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers);
+/// the placements. Throws Error (limit) if there are too many primitives.
+FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers,
+                  const PrimitiveLimit& limit);
+/// Makes one object of a prototype, in its own space.
+FlatScene flatten(const PrototypeSource& prototype, Precision precision, const Workers& workers);
 
 }  // namespace crt::core

@@ -128,12 +128,14 @@ Bounds part_bounds(const Part& part) {
   return total;
 }
 
-std::vector<std::size_t> disjoint_groups(std::vector<Part>& parts, const Workers& workers) {
+std::vector<std::size_t> disjoint_groups(std::vector<Part>& parts,
+                                         const std::function<Bounds(const Part&)>& bounds_of,
+                                         const Workers& workers) {
   if (parts.size() < 2) return std::vector<std::size_t>(parts.size(), parts.size());
   std::vector<Bounds> bounds(parts.size());
   for_ranges(parts.size(), items_for_a_thread / 4, workers,
              [&](std::size_t begin, std::size_t end) {
-               for (std::size_t i = begin; i < end; ++i) bounds[i] = part_bounds(parts[i]);
+               for (std::size_t i = begin; i < end; ++i) bounds[i] = bounds_of(parts[i]);
              });
   Grouping grouping(bounds, workers);
   std::vector<Part> grouped;

@@ -15,9 +15,13 @@ std::uint64_t unlisted_bytes(const CompiledScene& scene) {
 }  // namespace
 
 std::uint64_t primitive_bytes(const CompiledScene& scene) {
-  return bytes_of(scene.placements) + bytes_of(scene.leaves) + bytes_of(scene.face_surfaces) +
-         unlisted_bytes(scene) + bytes_of(scene.objects) + scene.shape_bytes +
-         scene.transforms.bytes();
+  std::uint64_t bytes = bytes_of(scene.placements) + bytes_of(scene.leaves) +
+                        bytes_of(scene.face_surfaces) + unlisted_bytes(scene) +
+                        bytes_of(scene.objects) + scene.shape_bytes + scene.transforms.bytes() +
+                        bytes_of(scene.instances) + bytes_of(scene.chains);
+  for (const auto& prototype : scene.prototypes)
+    bytes += sizeof *prototype + primitive_bytes(*prototype);
+  return bytes;
 }
 
 std::uint64_t csg_bytes(const CompiledScene& scene) {
@@ -26,6 +30,7 @@ std::uint64_t csg_bytes(const CompiledScene& scene) {
     bytes += bytes_of(program.nodes) + bytes_of(program.leaf_parents) + program.tree.bytes() +
              program.paths.bytes() + program.filter.bytes();
   }
+  for (const auto& prototype : scene.prototypes) bytes += csg_bytes(*prototype);
   return bytes;
 }
 

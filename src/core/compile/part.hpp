@@ -31,6 +31,7 @@ struct Part {
   std::uint32_t id = 0;
   bool id_is_final = false;   ///< a with_id above overrides inner ones
   std::uint32_t part_id = 0;  ///< of the innermost with_id, or the entity's place in the scene
+  bool has_part_id = false;   ///< from a with_id
 
   /// Returns the part with the wrappers around its node removed and applied.
   Part unwrapped(TransformPool& pool) const {
@@ -44,7 +45,10 @@ struct Part {
         inner.id = *wrapper->id;
         inner.id_is_final = true;
       }
-      if (wrapper->id) inner.part_id = *wrapper->id;
+      if (wrapper->id) {
+        inner.part_id = *wrapper->id;
+        inner.has_part_id = true;
+      }
     }
     return inner;
   }

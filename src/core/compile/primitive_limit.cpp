@@ -13,9 +13,6 @@
 namespace crt::core {
 namespace {
 
-/// Faces, leaves and nodes have numbers of 32 bits, and a primitive may have some of each.
-constexpr std::uint64_t most_numbered = std::uint64_t{1} << 25;
-
 /// Returns the bytes that a process may have. The limits are those of the machine, of its container
 /// (Linux's control groups, of either version) and of itself, whichever is the lowest.
 std::uint64_t memory_limit() {
@@ -33,40 +30,30 @@ std::uint64_t memory_limit() {
   return bytes;
 }
 
-/// Counts primitives, but stops at more than can be numbered.
-std::uint64_t count(std::span<const Entity> entities) {
-  std::uint64_t result = 0;
-  for (const Entity& entity : entities) {
-    result += std::min(entity.primitive_count(), most_numbered + 1);
-    if (result > most_numbered) break;
-  }
-  return result;
-}
-
 }  // namespace
 
-void check_primitive_count(std::span<const Entity> entities, Precision precision,
-                           std::uint64_t most) {
-  constexpr std::uint64_t few = std::uint64_t{1} << 16;  // for which the limit is not computed
-  const std::uint64_t primitives = count(entities);
+void PrimitiveLimit::check(const Instancing::Count& count) const {
+  constexpr std::uint64_t few = std::uint64_t{1} << 16;  // for which memory is not looked at
+  const std::uint64_t primitives = count.primitives + count.instances;
   if (primitives > most_numbered) {
     throw Error(ErrorCode::limit,
                 fmt::format("the scene has more than {} primitives", most_numbered), "entities");
   }
-  if (most != 0 && primitives > most) {
-    throw Error(
-        ErrorCode::limit,
-        fmt::format("the scene has {} primitives, more than {} (max_primitives)", primitives, most),
-        "entities");
+  if (most_ != 0 && primitives > most_) {
+    throw Error(ErrorCode::limit,
+                fmt::format("the scene has {} primitives, more than {} (max_primitives)",
+                            primitives, most_),
+                "entities");
   }
-  if (most != 0 || primitives <= few) return;
-  const std::uint64_t fitting = memory_limit() / bytes_to_prepare(precision);
-  if (primitives <= fitting) return;
+  if (most_ != 0 || primitives <= few) return;
+  const std::uint64_t limit = memory_limit();
+  const std::uint64_t of_primitive = bytes_to_prepare(precision_);
+  if (of_primitive * count.primitives + bytes_of_instance * count.instances <= limit) return;
   throw Error(
       ErrorCode::limit,
       fmt::format("the scene has {} primitives, but the memory here may be enough for {} only "
                   "(see max_primitives)",
-                  primitives, fitting),
+                  primitives, limit / of_primitive),
       "entities");
 }
 

@@ -3,9 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
-#include "crt/entity.hpp"
+#include "core/compile/instancing.hpp"
 #include "crt/settings.hpp"
 
 namespace crt::core {
@@ -16,9 +15,25 @@ inline constexpr std::uint64_t bytes_to_prepare(Precision precision) {
   return precision == Precision::exact ? 2700 : 1350;
 }
 
-/// Throws Error (limit) if entities have more primitives than `most`, or more than can be numbered.
-/// If `most` is 0, the limit is what there is memory for, at bytes_to_prepare() each.
-void check_primitive_count(std::span<const Entity> entities, Precision precision,
-                           std::uint64_t most);
+/// This is what an instance of something shared may take.
+inline constexpr std::uint64_t bytes_of_instance = 512;
+
+/// A PrimitiveLimit says how many primitives a scene may have. An instance counts as one.
+class PrimitiveLimit {
+ public:
+  /// Faces, leaves and nodes have numbers of 32 bits, and a primitive may have some of each.
+  static constexpr std::uint64_t most_numbered = std::uint64_t{1} << 25;
+
+  /// If `most` is 0, the limit is what there is memory for.
+  explicit PrimitiveLimit(Precision precision, std::uint64_t most = 0)
+      : precision_(precision), most_(most) {}
+
+  /// Throws Error (limit) if that is too many.
+  void check(const Instancing::Count& count) const;
+
+ private:
+  Precision precision_;
+  std::uint64_t most_;
+};
 
 }  // namespace crt::core

@@ -27,14 +27,16 @@ bool coincides(const CsgCrossing& first, const CsgCrossing& other) {
 
 CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
                              std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-                             CsgWorkspace& workspace, bool first_is_enough)
+                             CsgWorkspace& workspace, bool first_is_enough,
+                             const InstanceFrame* frame)
     : program_(program),
-      leaves_of_scene_(leaves),
       leaves_(leaves.subspan(program.first_leaf, program.leaf_count())),
       face_surfaces_(face_surfaces),
       ray_(ray),
       work_(workspace),
-      slabs_(ray.origin, ray.direction, ray.start.t_error),
+      frame_(frame),
+      slabs_(frame != nullptr ? frame->slabs(ray)
+                              : RaySlabs(ray.origin, ray.direction, ray.start.t_error)),
       part_{ray.t_min - ray.start.t_error, ray.t_max},
       first_stamp_(++workspace.stamp_),
       exact_(leaves_[0].exact != nullptr),
@@ -147,16 +149,17 @@ void CsgEvaluation::open_what_may_coincide() {
 void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   work_.steps.step();
   const Leaf& leaf = leaves_[index];
+  const PlacedLeaf in_place = placed(leaf);
   // Leaves that are placed alike often follow one another, so the ray is taken to their space once.
   if (leaf.placement != placement_) {
     placement_ = leaf.placement;
-    object_ray_ = placement_->to_object(ray_.origin, ray_.direction);
+    object_ray_ = in_place.placement.to_object(ray_.origin, ray_.direction);
   }
   object_ray_.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start);
   // In the exact tier crossings that are near to each other are all opened, to be put in order.
   bool inside = first_is_enough_ && leaf.has_many_faces() && !exact_
-                    ? gather_piece(index, leaf, enter)
-                    : gather_crossings(leaf);
+                    ? gather_piece(index, in_place, enter)
+                    : gather_crossings(in_place);
   work_.events += work_.leaf_crossings_.size();
   for (const Crossing& crossing : work_.leaf_crossings_) {
     const FaceSurface surface = leaf.surface_of(crossing.face, face_surfaces_);
@@ -180,7 +183,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
     met.entering = crossing.entering;
     met.shared = surface.shared;
     if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= farthest_start(ray_) &&
-        is_at_start(leaf, ray_, object_ray_, crossing)) {
+        is_at_start(in_place, ray_, object_ray_, crossing)) {
       met.t = ray_.t_min;
       met.t_low = 0;
       met.moved = true;
@@ -194,12 +197,12 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   flip_leaf(index);
 }
 
-bool CsgEvaluation::gather_crossings(const Leaf& leaf) {
+bool CsgEvaluation::gather_crossings(const PlacedLeaf& leaf) {
   work_.leaf_crossings_.clear();
   return leaf_crossings(leaf, ray_, object_ray_, work_.leaf_crossings_, work_.escalations);
 }
 
-bool CsgEvaluation::gather_piece(std::uint32_t index, const Leaf& leaf, double& enter) {
+bool CsgEvaluation::gather_piece(std::uint32_t index, const PlacedLeaf& leaf, double& enter) {
   auto& pieces = work_.pieces_;
   auto& crossings = work_.leaf_crossings_;
   auto piece = std::find_if(pieces.begin(), pieces.end(),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/csg/exact_order.hpp"
+#include "core/csg/instance.hpp"
 #include "core/csg/program.hpp"
 #include "core/csg/ray_steps.hpp"
 #include "core/ray/world_ray.hpp"
@@ -119,22 +120,22 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
 
 /// Appends the crossings of a leaf with a ray in the world, which is `object_ray` in the leaf's
 /// space, by the leaf's tier. Returns whether the line is inside at t = -inf.
-bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+bool leaf_crossings(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                     CrossingList& out, std::uint64_t& escalations);
 
 /// Returns the ray in the space of a leaf of the exact tier. There it is `object_ray`, which must
-/// outlive it.
-ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+/// outlive it, as the placement must.
+ExactRay exact_ray(const Placement& placement, const WorldRay& ray, const ObjectRay& object_ray,
                    std::uint64_t& escalations);
 
 /// Returns whether a crossing near the start is of a surface through it.
-bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                       const Crossing& crossing);
 
 /// Returns whether a crossing is at the start, or before it, so that rounding decides whether it is
 /// ahead. It is of another surface than the one that the ray starts on. `object_ray` is the ray in
 /// the leaf's space.
-inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+inline bool is_at_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                         const Crossing& crossing) {
   const double distance = crossing.t - ray.t_min - crossing.error;
   if (distance > flattest_start * ray.start.t_error) return false;
@@ -162,10 +163,12 @@ inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& 
 /// O(depth) for each crossing, or O(log^2 nodes) if the program is deep.
 class CsgEvaluation {
  public:
-  /// With `first_is_enough` it is rarely asked for more than one crossing.
+  /// With `first_is_enough` it is rarely asked for more than one crossing. An instance has a frame.
+  /// Leaf and surface that its ray starts on are then those of the prototype.
   CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
                 std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-                CsgWorkspace& workspace, bool first_is_enough = false);
+                CsgWorkspace& workspace, bool first_is_enough = false,
+                const InstanceFrame* frame = nullptr);
 
   /// Returns whether the start of the ray (just after t_min) is inside the object.
   bool starts_inside() const { return starts_inside_; }
@@ -193,11 +196,15 @@ class CsgEvaluation {
   bool is_near_next(double t) const;
   void gather_near();
   void open_leaf(std::uint32_t index, double enter);
+  /// Returns the leaf with the placement that is known until another leaf is asked for.
+  PlacedLeaf placed(const Leaf& leaf) const {
+    return frame_ == nullptr ? PlacedLeaf(leaf) : PlacedLeaf(leaf, frame_->placement_of(leaf));
+  }
   /// Gathers the crossings of a leaf in leaf_crossings_, as leaf_crossings() does.
-  bool gather_crossings(const Leaf& leaf);
+  bool gather_crossings(const PlacedLeaf& leaf);
   /// Gathers the next crossings of a leaf of many faces, up to the first that may matter. Whatever
   /// is beyond waits for another opening. Sets `enter` to where the line enters its box.
-  bool gather_piece(std::uint32_t index, const Leaf& leaf, double& enter);
+  bool gather_piece(std::uint32_t index, const PlacedLeaf& leaf, double& enter);
   /// Opens what of pieces is before a crossing that coincides with the next one, so that all is
   /// there in order. Returns whether there was any.
   bool open_pieces_between();
@@ -231,16 +238,16 @@ class CsgEvaluation {
   bool is_changed_up_to_root(std::uint32_t leaf, bool now);
 
   const CsgProgram& program_;
-  std::span<const Leaf> leaves_of_scene_;
   std::span<const Leaf> leaves_;  ///< of the object
   std::span<const FaceSurface> face_surfaces_;
   WorldRay ray_;
   CsgWorkspace& work_;
+  const InstanceFrame* frame_;
   RaySlabs slabs_;
   LineSpan part_;  ///< of the line: what is within it may matter
   std::uint64_t first_stamp_;
   std::optional<PathValues> paths_;       ///< of a deep program
-  const Placement* placement_ = nullptr;  ///< of object_ray_
+  const Placement* placement_ = nullptr;  ///< the own one of the leaves that object_ray_ is for
   ObjectRay object_ray_;
   bool starts_inside_ = false;
   std::uint64_t ticks_ = 0;

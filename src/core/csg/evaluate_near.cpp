@@ -45,13 +45,18 @@ void CsgEvaluation::gather_near() {
     near.push_back(next);
     const CsgCrossing& met = work_.met_[next.index];
     is_known = is_known && !met.moved;
-    crossings.push_back(near_crossing(met, program_.first_leaf + met.leaf, next.index));
+    crossings.push_back(near_crossing(met, next.index));
     const NearCrossing& crossing = crossings.back();
     is_one =
         is_one && crossing.surface == crossings[0].surface && crossing.root == crossings[0].root;
   }
-  if (!is_one && is_known &&
-      sort_exactly(crossings, leaves_of_scene_, face_surfaces_, ray_, work_.escalations)) {
+  const auto leaf_on_ray = [this](const NearCrossing& crossing) {
+    const std::uint32_t index = work_.met_[crossing.item].leaf;
+    const Leaf& leaf = leaves_[index];
+    return LeafOnRay{placed(leaf),
+                     start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start)};
+  };
+  if (!is_one && is_known && sort_exactly(crossings, leaf_on_ray, ray_, work_.escalations)) {
     near.clear();
     for (const NearCrossing& crossing : crossings) {
       CsgCrossing& met = work_.met_[crossing.item];

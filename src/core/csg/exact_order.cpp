@@ -21,7 +21,7 @@ constexpr auto is_before = [](const NearCrossing& a, const NearCrossing& b) {
 /// Returns a number below 0, 0 or above it, if their bounds or surfaces decide the order. Returns
 /// nothing if only the roots do.
 std::optional<int> order_by_bounds(const NearCrossing& a, const NearCrossing& b) {
-  if (a.surface == b.surface && a.root == b.root) return 0;
+  if (a.surface == b.surface && a.surface != nothing && a.root == b.root) return 0;
   const double distance = (a.t - b.t) + (a.t_low - b.t_low);
   // The rounding of the distance is far less than the margin in the errors.
   if (std::abs(distance) > a.error + b.error) return distance > 0 ? 1 : -1;
@@ -41,12 +41,10 @@ bool rank_by_bounds(std::span<NearCrossing> crossings) {
 
 class ExactOrder {
  public:
-  ExactOrder(std::span<const NearCrossing> crossings, std::span<const Leaf> leaves,
-             std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-             std::uint64_t& escalations)
+  ExactOrder(std::span<const NearCrossing> crossings, const FindLeaf& find_leaf,
+             const WorldRay& ray, std::uint64_t& escalations)
       : crossings_(crossings),
-        leaves_(leaves),
-        face_surfaces_(face_surfaces),
+        find_leaf_(find_leaf),
         ray_(ray),
         escalations_(escalations),
         places_(crossings.size()) {}
@@ -81,22 +79,21 @@ class ExactOrder {
     Place& place = places_[number];
     if (place.is_found) return place.root;
     const NearCrossing& crossing = crossings_[number];
-    const Leaf& leaf = leaves_[crossing.leaf];
-    ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
-    object_ray.start = start_on_leaf(leaf, crossing.leaf, face_surfaces_, ray_.start);
-    place = {true, leaf.exact->place(exact_ray(leaf, ray_, object_ray, escalations_),
-                                     {.t = crossing.t,
-                                      .error = crossing.error,
-                                      .t_low = crossing.t_low,
-                                      .face = crossing.face,
-                                      .root = crossing.root})};
+    const auto [leaf, start] = find_leaf_(crossing);
+    ObjectRay object_ray = leaf.placement.to_object(ray_.origin, ray_.direction);
+    object_ray.start = start;
+    place = {true, leaf.leaf.exact->place(exact_ray(leaf.placement, ray_, object_ray, escalations_),
+                                          {.t = crossing.t,
+                                           .error = crossing.error,
+                                           .t_low = crossing.t_low,
+                                           .face = crossing.face,
+                                           .root = crossing.root})};
     all_known_ = all_known_ && place.root;
     return place.root;
   }
 
   std::span<const NearCrossing> crossings_;
-  std::span<const Leaf> leaves_;
-  std::span<const FaceSurface> face_surfaces_;
+  const FindLeaf& find_leaf_;
   const WorldRay& ray_;
   std::uint64_t& escalations_;
   std::vector<Place> places_;
@@ -115,12 +112,11 @@ void move_beyond(const NearCrossing& last, NearCrossing& crossing) {
 
 }  // namespace
 
-bool sort_exactly(std::vector<NearCrossing>& crossings, std::span<const Leaf> leaves,
-                  std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-                  std::uint64_t& escalations) {
+bool sort_exactly(std::vector<NearCrossing>& crossings, const FindLeaf& find_leaf,
+                  const WorldRay& ray, std::uint64_t& escalations) {
   sort_stably(crossings, is_before);
   if (rank_by_bounds(crossings)) return true;
-  ExactOrder order(crossings, leaves, face_surfaces, ray, escalations);
+  ExactOrder order(crossings, find_leaf, ray, escalations);
   const std::vector<std::size_t> numbers = order.sorted();
   std::vector<NearCrossing> result;
   result.reserve(crossings.size());

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,7 +23,6 @@ struct NearCrossing {
   double t = 0;
   double error = 0;
   double t_low = 0;
-  std::uint32_t leaf = 0;  ///< within the scene
   std::uint32_t face = 0;
   std::uint32_t surface = 0;
   std::uint8_t root = 0;
@@ -32,11 +32,10 @@ struct NearCrossing {
 
 /// Returns what a crossing of an object, or of a leaf of a CSG object, is among others.
 template <class Crossing>
-NearCrossing near_crossing(const Crossing& of, std::uint32_t leaf_of_scene, std::uint32_t item) {
+NearCrossing near_crossing(const Crossing& of, std::uint32_t item) {
   return {.t = of.t,
           .error = of.error,
           .t_low = of.t_low,
-          .leaf = leaf_of_scene,
           .face = of.face,
           .surface = of.surface,
           .root = of.root,
@@ -50,14 +49,21 @@ inline double looking_distance(double t) {
   return roundings * std::abs(t);
 }
 
+/// A LeafOnRay is a leaf that a ray crosses, and where the ray starts on it.
+struct LeafOnRay {
+  PlacedLeaf leaf;
+  RayStart start;
+};
+/// A FindLeaf returns the leaf of a crossing. It need only be valid until it is asked again.
+using FindLeaf = std::function<LeafOnRay(const NearCrossing& crossing)>;
+
 /// Sorts crossings of one ray with leaves of the exact tier by where they are. Each gets its rank,
 /// from 1 on. Those of one place have equal ranks and stay in order. What (t, t_low) puts before
 /// something of a lower rank is moved, by as little as doubles can be, and the distance is added to
 /// its error. Returns false if the place of some depends on the rounding of the ray's start alone.
 /// They are then in no order that means anything. Takes memory only where 100 bits of t leave the
 /// order open.
-bool sort_exactly(std::vector<NearCrossing>& crossings, std::span<const Leaf> leaves,
-                  std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-                  std::uint64_t& escalations);
+bool sort_exactly(std::vector<NearCrossing>& crossings, const FindLeaf& find_leaf,
+                  const WorldRay& ray, std::uint64_t& escalations);
 
 }  // namespace crt::core

@@ -40,24 +40,24 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
   return {};
 }
 
-bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+bool leaf_crossings(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                     CrossingList& out, std::uint64_t& escalations) {
-  if (!leaf.exact) return leaf.shape->crossings(object_ray, out);
-  return leaf.exact->crossings(exact_ray(leaf, ray, object_ray, escalations), out);
+  if (!leaf.leaf.exact) return leaf.leaf.shape->crossings(object_ray, out);
+  return leaf.leaf.exact->crossings(exact_ray(leaf.placement, ray, object_ray, escalations), out);
 }
 
-ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+ExactRay exact_ray(const Placement& placement, const WorldRay& ray, const ObjectRay& object_ray,
                    std::uint64_t& escalations) {
-  ExactRay exact = leaf.placement->to_object_exactly(ray.origin, ray.direction, object_ray);
+  ExactRay exact = placement.to_object_exactly(ray.origin, ray.direction, object_ray);
   exact.start_error = ray.start.t_error;
   exact.escalations = &escalations;
   return exact;
 }
 
-bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                       const Crossing& crossing) {
-  const SurfacePoint point = leaf.shape->surface_point(object_ray, crossing, false);
-  const Vec3 normal = leaf.placement->normal_to_world(point.normal);
+  const SurfacePoint point = leaf.leaf.shape->surface_point(object_ray, crossing, false);
+  const Vec3 normal = leaf.placement.normal_to_world(point.normal);
   const double distance = crossing.t - ray.t_min - crossing.error;
   return distance * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
 }

@@ -19,6 +19,32 @@ const Vec3& row(const Transform& transform, int index) {
 
 }  // namespace
 
+Bounds moved_bounds(const Transform& transform, const Bounds& box) {
+  if (box.empty()) return box;
+  Bounds result;
+  for (int axis = 0; axis < 3; ++axis) {
+    // This is interval arithmetic by rows (Arvo, Transforming axis-aligned bounding boxes, Graphics
+    // Gems 1990). `size` bounds the rounding of the sums.
+    double lower = transform.translation[axis];
+    double upper = lower;
+    double size = std::abs(lower);
+    for (int index = 0; index < 3; ++index) {
+      const double factor = row(transform, axis)[index];
+      if (factor == 0) continue;
+      const double first = factor * box.lower[index];
+      const double second = factor * box.upper[index];
+      lower += std::min(first, second);
+      upper += std::max(first, second);
+      size += std::max(std::isfinite(first) ? std::abs(first) : 0,
+                       std::isfinite(second) ? std::abs(second) : 0);
+    }
+    const double slack = size * (8 * std::numeric_limits<double>::epsilon());
+    result.lower[axis] = std::nextafter(lower - slack, -infinity);
+    result.upper[axis] = std::nextafter(upper + slack, infinity);
+  }
+  return result;
+}
+
 Placement::Placement(const PreciseTransform& to_world) : to_world_(to_world.rounded()) {
   const Transform unmoved{.translation = to_world_.translation};
   if (to_world_ == Transform{}) return;
@@ -318,32 +344,6 @@ Vector Placement::normal_to_world(const Vector& object) const {
 }
 template Vec3 Placement::normal_to_world(const Vec3&) const;
 template VectorLanes Placement::normal_to_world(const VectorLanes&) const;
-
-Bounds Placement::bounds_to_world(const Bounds& object) const {
-  if (kind_ == Kind::identity || object.empty()) return object;
-  Bounds result;
-  for (int axis = 0; axis < 3; ++axis) {
-    // This is interval arithmetic by rows (Arvo, Transforming axis-aligned bounding boxes, Graphics
-    // Gems 1990). `size` bounds the rounding of the sums.
-    double lower = to_world_.translation[axis];
-    double upper = lower;
-    double size = std::abs(lower);
-    for (int index = 0; index < 3; ++index) {
-      const double factor = row(to_world_, axis)[index];
-      if (factor == 0) continue;
-      const double first = factor * object.lower[index];
-      const double second = factor * object.upper[index];
-      lower += std::min(first, second);
-      upper += std::max(first, second);
-      size += std::max(std::isfinite(first) ? std::abs(first) : 0,
-                       std::isfinite(second) ? std::abs(second) : 0);
-    }
-    const double slack = size * (8 * std::numeric_limits<double>::epsilon());
-    result.lower[axis] = std::nextafter(lower - slack, -infinity);
-    result.upper[axis] = std::nextafter(upper + slack, infinity);
-  }
-  return result;
-}
 
 void Placement::plane_to_world(const PreciseVec3& normal, const DoubleDouble& offset,
                                PreciseVec3& world_normal, DoubleDouble& world_offset) const {

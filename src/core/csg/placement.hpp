@@ -13,6 +13,9 @@
 
 namespace crt::core {
 
+/// Returns a box around the image of a box, rounded outwards.
+Bounds moved_bounds(const Transform& transform, const Bounds& box);
+
 /// A Placement is all the transforms of an entity in one. In the standard tier it *is* by
 /// definition the map to the world rounded to 12 doubles, and in the exact tier it is the map. Its
 /// inverse is kept in double-double, so that a ray enters object space with far less error than a
@@ -75,7 +78,11 @@ class Placement {
   Vector normal_to_world(const Vector& object) const;
 
   /// Returns a box around the image of a box, rounded outwards.
-  Bounds bounds_to_world(const Bounds& object) const;
+  Bounds bounds_to_world(const Bounds& object) const {
+    return kind_ == Kind::identity ? object : moved_bounds(to_world_, object);
+  }
+  /// Returns how many times as large components of a vector may get in object space.
+  double largest_stretch_to_object() const { return kind_ == Kind::affine ? inverse_size() : 1; }
 
   /// Computes what the plane {p : normal . p = offset} of object space is in the world.
   void plane_to_world(const PreciseVec3& normal, const DoubleDouble& offset,

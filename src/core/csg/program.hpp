@@ -62,7 +62,7 @@ struct Leaf {
   const Placement* placement =
       nullptr;  ///< shared by leaves that are placed alike; the scene owns it
   const SphereShape* plain_sphere =
-      nullptr;    ///< its shape, of a sphere neither complemented nor moved
+      nullptr;    ///< its shape, of a sphere neither complemented nor moved, nor in instances
   Bounds bounds;  ///< in the world, of what can matter of it
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
@@ -78,6 +78,9 @@ struct Leaf {
       false;                  ///< its facets have materials of their own, which `material` precedes
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface
+  /// Of a prototype's leaf: whether it has the entity's id, and the part's, of each instance.
+  bool takes_entity_id = false;
+  bool takes_part_id = false;
 
   /// Returns the number of the material of a face.
   std::uint32_t material_of(std::uint32_t face) const {
@@ -103,6 +106,18 @@ struct Leaf {
     if (found == some.end() || *found != face) return {.surface = unlisted->first_surface + face};
     return table[first_face + unlisted->begin + static_cast<std::uint32_t>(found - some.begin())];
   }
+};
+
+/// A PlacedLeaf is a leaf where it is in the world. That is its own placement, unless it is a leaf
+/// of an instance.
+struct PlacedLeaf {
+  const Leaf& leaf;
+  const Placement& placement;
+
+  PlacedLeaf(const Leaf& own)
+      : PlacedLeaf(own, *own.placement) {}  // NOLINT(google-explicit-constructor)
+  PlacedLeaf(const Leaf& of_prototype, const Placement& in_world)
+      : leaf(of_prototype), placement(in_world) {}
 };
 
 struct CsgNode {

@@ -7,6 +7,7 @@
 
 #include "core/accel/embree_tree.hpp"
 #include "core/accel/space_order.hpp"
+#include "core/compile/leaf_of_hit.hpp"
 #include "core/compile/memory.hpp"
 #include "core/intersect/isolated.hpp"
 #include "core/math/vector.hpp"
@@ -20,6 +21,7 @@ bool any_surface_is_shared(const CompiledScene& scene) {
   std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     const SceneObject& solid = scene.objects[object];
+    if (solid.is_instance()) continue;
     for (const Leaf& leaf : scene.leaves_of(solid)) {
       for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
         std::uint32_t& owner = owners[scene.face_surfaces[leaf.first_face + face].surface];
@@ -45,6 +47,7 @@ std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Wo
   for_ranges(count, items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SceneObject& object = scene.objects[i];
+      if (object.is_instance()) continue;
       const std::span<const Leaf> leaves = scene.leaves_of(object);
       for (std::uint32_t k = 0; k < leaves.size(); ++k) {
         const Leaf& leaf = leaves[k];
@@ -125,30 +128,34 @@ ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) cons
 
 SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit,
                                         bool with_uv) const {
-  const Leaf& leaf = compiled_.leaves[hit.leaf];
+  const LeafOfHit in_place(compiled_, hit);
+  const Leaf& leaf = in_place.leaf();
   const Crossing crossing{.t = hit.t,
                           .error = hit.error,
                           .face = hit.face,
                           .root = 0,
                           .entering = hit.entering != leaf.complemented};
-  return leaf.shape->surface_point(leaf.placement->to_object(ray.origin, ray.direction), crossing,
-                                   with_uv);
+  return leaf.shape->surface_point(in_place.placement().to_object(ray.origin, ray.direction),
+                                   crossing, with_uv);
 }
 
 void Accelerator::prefetch_surface_points(std::span<const RayHit, packet_size> hits,
                                           RayMask some) const {
   constexpr std::size_t in_cache = 64;
   if (compiled_.leaves.size() <= in_cache) return;
+  const auto is_own = [&](const RayHit& hit) {
+    return hit.found() && hit.leaf < compiled_.leaves.size();
+  };
   for_each_ray(some, [&](std::size_t i) {
-    if (hits[i].found()) __builtin_prefetch(&compiled_.leaves[hits[i].leaf].complemented);
+    if (is_own(hits[i])) __builtin_prefetch(&compiled_.leaves[hits[i].leaf].complemented);
   });
   for_each_ray(some, [&](std::size_t i) {
-    if (hits[i].found()) __builtin_prefetch(compiled_.leaves[hits[i].leaf].shape.get());
+    if (is_own(hits[i])) __builtin_prefetch(compiled_.leaves[hits[i].leaf].shape.get());
   });
 }
 
 std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
-  if (start.leaf == nothing || enclosed_[start.leaf] == nothing) return nothing;
+  if (start.leaf >= enclosed_.size() || enclosed_[start.leaf] == nothing) return nothing;
   const Leaf& start_leaf = leaf(start.leaf);
   const bool outwards =
       (start.side == Side::outside) != face_surface(start_leaf, start.face).flipped;
@@ -156,7 +163,7 @@ std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
 }
 
 std::uint32_t Accelerator::entered_isolated(const StartPoint& start) const {
-  if (isolated_.empty() || start.leaf == nothing) return nothing;
+  if (isolated_.empty() || start.leaf >= enclosed_.size()) return nothing;
   const std::uint32_t object = enclosed_[start.leaf];
   const bool enters =
       object != nothing && isolated_[object] != nothing && left_for_good(start) == nothing;
@@ -166,7 +173,7 @@ std::uint32_t Accelerator::entered_isolated(const StartPoint& start) const {
 bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
   if (!(ray.end_error > 0)) return false;
   const Vec3 normal =
-      compiled_.leaves[hit.leaf].placement->normal_to_world(surface_point(ray, hit, false).normal);
+      LeafOfHit(compiled_, hit).placement().normal_to_world(surface_point(ray, hit, false).normal);
   const double slope = std::abs(glm::dot(normal, ray.direction));
   return (ray.t_max - hit.t - hit.error) * slope <= ray.end_error;
 }

@@ -67,6 +67,7 @@ class Accelerator {
 
   const CompiledScene& compiled() const { return compiled_; }
   const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }
+  const Leaf& leaf_of(const RayHit& hit) const { return compiled_.leaf_of(hit); }
   const SceneObject& object(std::uint32_t index) const { return compiled_.objects[index]; }
   /// Returns the filter of a CSG object that has one, else null.
   const IntervalFilter* filter(std::uint32_t object) const {
@@ -83,7 +84,7 @@ class Accelerator {
   SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
   /// Fetches beforehand what surface_point() looks at.
   void prefetch_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
-  /// Returns a ray in the world as it is in the space of a leaf.
+  /// Returns a ray in the world as it is in the space of a leaf, which is none of an instance.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
   /// Returns whether a crossing near the ray's end is of a surface through that end.
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;

@@ -170,6 +170,7 @@ void bound_torus(const LoneLeaf& lone, BoundingProxy& proxy, ProxyAxis& axis) {
 BoundingProxy proxy_of(const CompiledScene& scene, const SceneObject& object, ProxyAxis& axis) {
   if (object.is_csg()) return proxy_of_csg(scene, object);
   BoundingProxy proxy;
+  if (object.is_instance()) return proxy;
   const Leaf& leaf = scene.leaves[object.first_leaf];
   if (!leaf.shape->is_solid()) return proxy;
   const TypedShape typed = leaf.shape->typed();

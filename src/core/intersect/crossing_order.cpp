@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/compile/leaf_of_hit.hpp"
 #include "core/math/stable_sort.hpp"
 
 namespace crt::core {
@@ -33,7 +34,8 @@ void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>
   for (std::size_t i = 1; i < numbers.size(); ++i) {
     const RayHit& first = crossings[numbers[i - 1]];
     RayHit& next = crossings[numbers[i]];
-    if (next.surface == first.surface && next.root == first.root) take_place(next, first);
+    const bool is_one = next.surface == first.surface && next.surface != nothing;
+    if (is_one && next.root == first.root) take_place(next, first);
   }
   // An object's own crossings stay in order.
   for (std::size_t i = 1; i < crossings.size(); ++i) {
@@ -83,9 +85,20 @@ void sort_near(const CompiledScene& scene, const WorldRay& ray, std::span<RayHit
   std::vector<NearCrossing>& near = work.near_crossings;
   near.clear();
   for (const RayHit& hit : crossings) {
-    near.push_back(near_crossing(hit, hit.leaf, static_cast<std::uint32_t>(near.size())));
+    near.push_back(near_crossing(hit, static_cast<std::uint32_t>(near.size())));
   }
-  if (!sort_exactly(near, scene.leaves, scene.face_surfaces, ray, work.leaf_escalations)) return;
+  const auto leaf_on_ray = [&](const NearCrossing& crossing) -> LeafOnRay {
+    const RayHit& hit = crossings[crossing.item];
+    const Leaf& leaf = scene.leaf_of(hit);
+    const SceneObject& object = scene.objects[hit.object];
+    if (!object.is_instance())
+      return {leaf, start_on_leaf(leaf, hit.leaf, scene.face_surfaces, ray.start)};
+    const CompiledScene& prototype = scene.prototype_of(object);
+    return {PlacedLeaf(leaf, scene.frame_of(object, work.placements).placement_of(leaf)),
+            start_on_leaf(leaf, hit.leaf - object.first_leaf, prototype.face_surfaces,
+                          start_in_prototype(scene, object, ray.start))};
+  };
+  if (!sort_exactly(near, leaf_on_ray, ray, work.leaf_escalations)) return;
   std::vector<RayHit>& before = work.unsorted;
   before.assign(crossings.begin(), crossings.end());
   const NearCrossing* best = nullptr;
@@ -110,7 +123,7 @@ void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_
   if (crossings.size() < 2) return;
   if (share_surfaces) unify_coincident(crossings, work.numbers);
   sort_stably(crossings, is_before);
-  if (scene.leaves[crossings[0].leaf].exact) {
+  if (scene.leaf_of(crossings[0]).exact) {
     const auto are_near = [](const RayHit& a, const RayHit& b) {
       return b.t <= a.t + looking_distance(a.t);
     };

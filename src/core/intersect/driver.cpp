@@ -257,7 +257,7 @@ RayHit Accelerator::gather_coincident(const WorldRay& ray, const RayHit& nearest
   here.clear();
   near.clear();
   all(piece, near, work);
-  const bool exact = compiled_.leaves[nearest.leaf].exact != nullptr;
+  const bool exact = compiled_.leaf_of(nearest).exact != nullptr;
   if (exact) sort(ray, near, work);
   RayHit first = exact && !near.empty() ? near.front() : nearest;
   const auto is_there = [&](const RayHit& crossing) {

@@ -88,6 +88,7 @@ std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
   const BoxLevels boxes(scene, bounded);
   const auto is_isolated = [&](std::uint32_t index) {
     const SceneObject& object = scene.objects[index];
+    if (object.is_instance()) return false;
     const std::span<const Leaf> leaves = scene.leaves_of(object);
     if (!object.solid || std::none_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
           const auto of_leaf = materials.subspan(leaf.material, leaf.material_count());

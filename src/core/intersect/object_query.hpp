@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/compile/leaf_of_hit.hpp"
 #include "core/geometry/ray_slabs.hpp"
 #include "core/intersect/accelerator.hpp"
 #include "core/ray/line_of_ray.hpp"
@@ -35,11 +36,12 @@ class ObjectQuery {
 
   void test(std::uint32_t object_index) {
     ++work_->intersection_tests;
-    const SceneObject& object = accelerator_->object(object_index);
-    if (object.is_csg()) {
-      test_csg(object_index, object);
+    const CompiledScene& scene = accelerator_->compiled();
+    const SceneObject& object = scene.objects[object_index];
+    if (object.is_instance()) {
+      test_instance(object_index, object);
     } else {
-      test_leaf(object_index, object);
+      test({scene, object, *ray_, object_index, 0, nullptr});
     }
   }
   /// Takes the crossing of a CSG object that its interval filter has found. Returns whether there
@@ -58,9 +60,32 @@ class ObjectQuery {
   bool begin(bool /*starts_inside*/) { return true; }
 
  private:
+  /// An ObjectInScene is an object to be tested, which may be that of a prototype.
+  struct ObjectInScene {
+    const CompiledScene& scene;
+    const SceneObject& object;
+    const WorldRay& ray;         ///< with a start on leaves and surfaces of that scene
+    std::uint32_t number;        ///< of the object that hits name
+    std::uint32_t first_leaf;    ///< is added to the number of a leaf
+    const InstanceFrame* frame;  ///< of an instance
+
+    /// Returns the number that hits give to a surface.
+    std::uint32_t surface(std::uint32_t in_scene) const {
+      return frame == nullptr ? in_scene : nothing;
+    }
+  };
+
   Kind& kind() { return static_cast<Kind&>(*this); }
-  void test_leaf(std::uint32_t object_index, const SceneObject& object);
-  void test_csg(std::uint32_t object_index, const SceneObject& object);
+  void test(const ObjectInScene& tested) {
+    if (tested.object.is_csg()) {
+      test_csg(tested);
+    } else {
+      test_leaf(tested);
+    }
+  }
+  void test_leaf(const ObjectInScene& tested);
+  void test_csg(const ObjectInScene& tested);
+  void test_instance(std::uint32_t object_index, const SceneObject& object);
 
   const Accelerator* accelerator_;
   const WorldRay* ray_;
@@ -69,36 +94,41 @@ class ObjectQuery {
 };
 
 template <class Kind>
-void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject& object) {
-  const Leaf& leaf = accelerator_->leaf(object.first_leaf);
-  ObjectRay object_ray = accelerator_->object_ray(object.first_leaf, *ray_);
+void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
+  const WorldRay& ray = tested.ray;
+  const std::uint32_t index = tested.object.first_leaf;
+  const Leaf& own = tested.scene.leaves[index];
+  const PlacedLeaf leaf =
+      tested.frame == nullptr ? PlacedLeaf(own) : PlacedLeaf(own, tested.frame->placement_of(own));
+  ObjectRay object_ray = leaf.placement.to_object(ray.origin, ray.direction);
+  object_ray.start = start_on_leaf(own, index, tested.scene.face_surfaces, ray.start);
   CrossingList& crossings = work_->crossings;
   crossings.clear();
-  object_ray.begin = ray_->t_min;
-  if (Kind::takes_one) object_ray.first_above = asked_above(farthest_start(*ray_));
-  bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations);
+  object_ray.begin = ray.t_min;
+  if (Kind::takes_one) object_ray.first_above = asked_above(farthest_start(ray));
+  bool inside = leaf_crossings(leaf, ray, object_ray, crossings, work_->leaf_escalations);
   // Another object's surface may coincide with the one that the ray starts on: then it is at the
   // start as well.
   const bool starts_here = object_ray.start.face != no_face;
-  std::size_t index = 0;
-  for (; index < crossings.size(); ++index) {
-    const Crossing& crossing = crossings[index];
-    if (crossing.t > ray_->t_min &&
-        (starts_here || !is_at_start(leaf, *ray_, object_ray, crossing))) {
+  std::size_t place = 0;
+  for (; place < crossings.size(); ++place) {
+    const Crossing& crossing = crossings[place];
+    if (crossing.t > ray.t_min && (starts_here || !is_at_start(leaf, ray, object_ray, crossing))) {
       break;
     }
     inside = crossing.entering;
   }
-  if (!kind().begin(inside && object.solid)) return;
-  for (; index < crossings.size() && crossings[index].t <= limit_; ++index) {
-    const Crossing& crossing = crossings[index];
+  if (!kind().begin(inside && tested.object.solid)) return;
+  for (; place < crossings.size() && crossings[place].t <= limit_; ++place) {
+    const Crossing& crossing = crossings[place];
+    const FaceSurface face = own.surface_of(crossing.face, tested.scene.face_surfaces);
     const RayHit hit{.t = crossing.t,
                      .error = crossing.error,
                      .t_low = crossing.t_low,
-                     .object = object_index,
-                     .leaf = object.first_leaf,
+                     .object = tested.number,
+                     .leaf = tested.first_leaf + index,
                      .face = crossing.face,
-                     .surface = accelerator_->face_surface(leaf, crossing.face).surface,
+                     .surface = tested.surface(face.surface),
                      .root = crossing.root,
                      .entering = crossing.entering};
     if (!kind().take(hit)) return;
@@ -106,27 +136,37 @@ void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject&
 }
 
 template <class Kind>
-void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& object) {
-  const CompiledScene& scene = accelerator_->compiled();
-  const CsgProgram& program = scene.programs[object.program];
-  WorldRay csg_ray = *ray_;
+void ObjectQuery<Kind>::test_csg(const ObjectInScene& tested) {
+  const CompiledScene& scene = tested.scene;
+  const CsgProgram& program = scene.programs[tested.object.program];
+  WorldRay csg_ray = tested.ray;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
   CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg,
-                           Kind::takes_one);
+                           Kind::takes_one, tested.frame);
   if (!kind().begin(evaluation.starts_inside())) return;
   CsgHit found;
   while (evaluation.next(found)) {
     const RayHit hit{.t = found.t,
                      .error = found.error,
                      .t_low = found.t_low,
-                     .object = object_index,
-                     .leaf = program.first_leaf + found.leaf,
+                     .object = tested.number,
+                     .leaf = tested.first_leaf + program.first_leaf + found.leaf,
                      .face = found.face,
-                     .surface = found.surface,
+                     .surface = tested.surface(found.surface),
                      .root = found.root,
                      .entering = found.entering};
     if (!kind().take(hit)) return;
   }
+}
+
+template <class Kind>
+void ObjectQuery<Kind>::test_instance(std::uint32_t object_index, const SceneObject& object) {
+  const CompiledScene& scene = accelerator_->compiled();
+  const CompiledScene& prototype = scene.prototype_of(object);
+  const InstanceFrame frame = scene.frame_of(object, work_->placements);
+  WorldRay ray = *ray_;
+  ray.start = start_in_prototype(scene, object, ray.start);
+  test({prototype, prototype.objects[0], ray, object_index, object.first_leaf, &frame});
 }
 
 template <class Kind>

@@ -19,6 +19,7 @@ struct RayWorkspace {
   std::uint64_t leaf_escalations = 0;    ///< those of lone primitives: see escalations()
   CsgWorkspace csg;                      ///< counts its events itself
   NearLeavesWorkspace near_leaves;
+  InstancePlacements placements;
   CrossingList crossings;
   /// These are about the last hit that has coincident ones. `here` has the crossings at its place
   /// in the order in which their objects were written. `near` has those so near that rounding may

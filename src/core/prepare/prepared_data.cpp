@@ -54,13 +54,20 @@ Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial>
   Opacity opacity;
   for (const PreparedMaterial& material : materials)
     opacity.of_materials.push_back(material.opaque);
-  for (const SceneObject& object : scene.objects) {
-    const std::span<const Leaf> leaves = scene.leaves_of(object);
-    opacity.of_objects.push_back(std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
+  const auto are_opaque = [&](std::span<const Leaf> leaves) {
+    return std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
       const auto first = opacity.of_materials.begin() + leaf.material;
       return std::find(first, first + leaf.material_count(), false) ==
              first + leaf.material_count();
-    }));
+    });
+  };
+  std::vector<bool> of_prototypes;
+  for (const auto& prototype : scene.prototypes)
+    of_prototypes.push_back(are_opaque(prototype->leaves));
+  for (const SceneObject& object : scene.objects) {
+    opacity.of_objects.push_back(object.is_instance()
+                                     ? of_prototypes[scene.instances[object.instance].prototype]
+                                     : are_opaque(scene.leaves_of(object)));
   }
   return opacity;
 }
@@ -80,7 +87,7 @@ struct PreparedData::Geometry {
   Geometry(const Scene& scene, CompiledScene compiled, const Workers& workers)
       : precision(scene.settings.precision),
         materials(std::move(compiled.materials)),
-        has_csg(!compiled.programs.empty()),
+        has_csg(!compiled.programs.empty() || !compiled.prototypes.empty()),
         accelerator(std::move(compiled), materials, workers) {
     entities.reserve(scene.entities.size());
     for (const Entity& entity : scene.entities) entities.push_back(entity.shared_node());
@@ -110,13 +117,12 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   if (earlier != nullptr && earlier->geometry_->is_of(scene)) {
     geometry_ = earlier->geometry_;
   } else {
-    check_primitive_count(scene.entities, scene.settings.precision, max_primitives);
     geometry_ = std::make_shared<const Geometry>(
-        scene, compile(scene.entities, scene.settings.precision, workers), workers);
+        scene, compile(scene.entities, scene.settings.precision, workers, max_primitives), workers);
   }
   accelerator_ = &geometry_->accelerator;
   leaves_ = accelerator_->compiled().leaves;
-  face_surfaces_ = accelerator_->compiled().face_surfaces;
+  compiled_ = &accelerator_->compiled();
   entity_ids_ = geometry_->entity_ids;
   for (const SharedMaterial& material : geometry_->materials) {
     workers.poll();
@@ -129,7 +135,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   features_ = find_features(scene_, materials_, geometry_->has_csg);
 
   warnings_ = textures_.warnings();
-  if (leaves_.empty()) {
+  if (leaves_.empty() && !has_instances()) {
     warnings_.emplace_back("the scene has no entities: only the background shows");
   } else if (scene.lights.empty()) {
     warn_of_no_light();
@@ -233,17 +239,18 @@ Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace&
 
 void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv,
                              HitPoint& point) const {
-  const Leaf& leaf = leaves_[hit.leaf];
+  const LeafOfHit in_place = placed_leaf(hit);
+  const Placement& placement = in_place.placement();
   const SurfacePoint surface = object_point(ray, hit, with_uv);
   point.t = hit.t;
-  point.position = leaf.placement->point_to_world(surface.position);
+  point.position = placement.point_to_world(surface.position);
   point.object_position = surface.position;
   point.object_normal = surface.normal;
-  point.normal = leaf.placement->normal_to_world(point.object_normal);
+  point.normal = placement.normal_to_world(point.object_normal);
   point.u = surface.u;
   point.v = surface.v;
-  point.material = leaf.material_of(hit.face);
-  point.entity_id = leaf.entity_id;
+  point.material = hit_material(hit);
+  point.entity_id = entity_id(hit);
   point.object = hit.object;
   point.leaf = hit.leaf;
   point.face = hit.face;
@@ -255,17 +262,17 @@ SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit,
                                         bool with_uv) const {
   SurfacePoint point = accelerator_->surface_point(ray, hit, with_uv);
   // A cutter's surface bounds what is left of the solid from the other side.
-  if (leaves_[hit.leaf].complemented) point.normal = -point.normal;
+  if (leaf(hit).complemented) point.normal = -point.normal;
   return point;
 }
 
 RayMask PreparedData::on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
                                       RayMask some) const {
-  const Leaf& like = leaves_[first.leaf];
+  const Leaf& like = leaf(first);
   if (like.plain_sphere == nullptr) return 0;
   RayMask result = 0;
   for_each_ray(some, [&](std::size_t lane) {
-    const Leaf& leaf = leaves_[hits[lane].leaf];
+    const Leaf& leaf = this->leaf(hits[lane]);
     const bool is_like = leaf.plain_sphere != nullptr && leaf.material == like.material &&
                          hits[lane].entering == first.entering;
     result |= static_cast<RayMask>(is_like) << lane;
@@ -280,7 +287,7 @@ void PreparedData::sphere_points(std::span<const RayHit, lane_count> hits, RayMa
   std::array<const SphereShape*, lane_count> spheres;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const RayHit& hit = hits[(some >> lane & 1u) != 0 ? lane : first];
-    spheres[lane] = leaves_[hit.leaf].plain_sphere;
+    spheres[lane] = leaf(hit).plain_sphere;
   }
   SphereShape::points_on_each(spheres, lines, t, with_uv, points);
 }
@@ -293,10 +300,6 @@ StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Sid
   }
   start.t_error = start_rounding * farthest;
   return start;
-}
-
-const CompiledScene& PreparedData::compiled() const {
-  return accelerator_->compiled();
 }
 
 }  // namespace crt::core

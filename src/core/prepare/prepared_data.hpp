@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/compile/leaf_of_hit.hpp"
 #include "core/csg/evaluate.hpp"
 #include "core/csg/program.hpp"
 #include "core/intersect/answers.hpp"
@@ -27,7 +28,6 @@
 namespace crt::core {
 
 class Accelerator;
-struct CompiledScene;
 
 /// A HitPoint is everything about a hit that shading may ask for.
 struct HitPoint {
@@ -123,13 +123,14 @@ class PreparedData {
   /// `first`. For the others the point means nothing.
   void object_points(const RayHit& first, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
-    const Leaf& leaf = leaves_[first.leaf];
+    const LeafOfHit in_place = placed_leaf(first);
+    const Leaf& leaf = in_place.leaf();
     const Vec3 anchor = leaf.shape->anchor(first.face);
-    if (leaf.placement->is_identity()) {
+    if (in_place.placement().is_identity()) {
       leaf.shape->points_on(lines.from_center(anchor, t), lines.direction, first.face, with_uv,
                             points);
     } else {
-      const ObjectRayLanes moved = leaf.placement->to_object(lines);
+      const ObjectRayLanes moved = in_place.placement().to_object(lines);
       leaf.shape->points_on(moved.from_center(anchor, t), moved.direction, first.face, with_uv,
                             points);
     }
@@ -147,46 +148,57 @@ class PreparedData {
 
   /// Transforms points of a hit like `hit` to the world.
   void take_to_world(const RayHit& hit, SurfacePointLanes& points) const {
-    const Placement& placement = *leaves_[hit.leaf].placement;
+    const LeafOfHit in_place = placed_leaf(hit);
+    const Placement& placement = in_place.placement();
     if (placement.is_identity()) return;
     points.position = placement.point_to_world(points.position);
     points.normal = placement.normal_to_world(points.normal);
   }
 
   /// Returns the material of a hit, without the rest.
-  std::uint32_t hit_material(const RayHit& hit) const {
-    return leaves_[hit.leaf].material_of(hit.face);
-  }
+  std::uint32_t hit_material(const RayHit& hit) const { return leaf(hit).material_of(hit.face); }
 
   /// Returns the user's number of the entity that was hit.
-  std::uint32_t entity_id(const RayHit& hit) const { return entity_ids_[hit.leaf]; }
+  std::uint32_t entity_id(const RayHit& hit) const {
+    return is_of_instance(hit) ? ids(hit).entity : entity_ids_[hit.leaf];
+  }
+  /// Returns the user's numbers of what was hit.
+  Ids ids(const RayHit& hit) const { return ids_of(*compiled_, hit); }
 
-  /// Returns the user's number of a leaf's entity, without a branch. For no leaf it is any number,
-  /// if there are entities.
+  /// Returns the user's number of a leaf's entity, without a branch. For no leaf, and for one of an
+  /// instance, it is any number, if there are entities.
   std::uint32_t entity_id_or_any(std::uint32_t leaf) const {
     return entity_ids_[leaf < entity_ids_.size() ? leaf : 0];
   }
+  bool has_instances() const { return !compiled_->instances.empty(); }
 
   /// Returns whether a hit is on the boundary of a volume, not on a mere surface.
-  bool is_solid(const RayHit& hit) const { return leaves_[hit.leaf].of_solid; }
+  bool is_solid(const RayHit& hit) const { return leaf(hit).of_solid; }
 
   /// Returns where a ray starts that leaves a hit to the given side of the solid's surface. The
   /// direction of `ray` must have unit length.
   StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
   /// Returns the start_point() but for its error.
   StartPoint start_face(const RayHit& hit, Side side) const {
-    const Leaf& leaf = leaves_[hit.leaf];
-    const FaceSurface face = leaf.surface_of(hit.face, face_surfaces_);
+    const Leaf& leaf = this->leaf(hit);
+    const FaceSurface face = leaf.surface_of(hit.face, compiled_->scene_of(hit).face_surfaces);
     // `side` is that of the object. A cutter and a flipped face each turn it round once.
     if (leaf.complemented != face.flipped) side = opposite(side);
-    return {.leaf = hit.leaf, .face = hit.face, .surface = face.surface, .side = side};
+    return {.leaf = hit.leaf,
+            .face = hit.face,
+            .surface = is_of_instance(hit) ? nothing : face.surface,
+            .side = side};
   }
 
   /// Returns the objects, and what they are made of.
-  const CompiledScene& compiled() const;
+  const CompiledScene& compiled() const { return *compiled_; }
 
-  /// Returns the primitive in its place that was hit, which bumps ask for.
-  const Leaf& leaf(const RayHit& hit) const { return leaves_[hit.leaf]; }
+  /// Returns the primitive that was hit.
+  const Leaf& leaf(const RayHit& hit) const {
+    return is_of_instance(hit) ? compiled_->leaf_of(hit) : leaves_[hit.leaf];
+  }
+  /// Returns the primitive that was hit in its place.
+  LeafOfHit placed_leaf(const RayHit& hit) const { return {*compiled_, hit}; }
 
   const std::vector<PreparedMaterial>& materials() const { return materials_; }
   const PreparedBackground& background() const { return *background_; }
@@ -205,6 +217,7 @@ class PreparedData {
  private:
   struct Geometry;
 
+  bool is_of_instance(const RayHit& hit) const { return hit.leaf >= leaves_.size(); }
   void warn_of_no_light();
   void warn_of_camera();
 
@@ -218,7 +231,7 @@ class PreparedData {
   // These point into the geometry.
   const Accelerator* accelerator_ = nullptr;
   std::span<const Leaf> leaves_;
-  std::span<const FaceSurface> face_surfaces_;
+  const CompiledScene* compiled_ = nullptr;
   std::span<const std::uint32_t> entity_ids_;  ///< of leaves, close together
   std::vector<std::string> warnings_;
   double prepare_seconds_ = 0;

@@ -17,8 +17,10 @@ struct RayHit {
   std::uint32_t object = nothing;  ///< a lone primitive or a CSG object, which is what Embree knows
   std::uint32_t leaf = nothing;    ///< the primitive that the face belongs to
   std::uint32_t face = no_face;
-  std::uint32_t surface = nothing;  ///< the whole surface that the face is a piece of
-  std::uint8_t root = 0;            ///< as in Crossing
+  /// This is the whole surface that the face is a piece of. Those of instances have no number, as
+  /// no other object knows of them.
+  std::uint32_t surface = nothing;
+  std::uint8_t root = 0;  ///< as in Crossing
   bool entering = false;
   bool has_coincident = false;  ///< other objects have crossings there: RayWorkspace::here and near
 
@@ -28,7 +30,10 @@ struct RayHit {
 /// Returns whether two crossings of one ray count as being at one place. Crossings of one surface
 /// are compared by identity, and others by whether their error bounds can separate them.
 inline bool same_place(const RayHit& a, const RayHit& b) {
-  if (a.surface == b.surface && a.surface != nothing) return a.root == b.root;
+  const bool is_one = a.surface != nothing
+                          ? a.surface == b.surface
+                          : a.object == b.object && a.leaf == b.leaf && a.face == b.face;
+  if (is_one) return a.root == b.root;
   return std::abs((a.t - b.t) + (a.t_low - b.t_low)) <= a.error + b.error;
 }
 

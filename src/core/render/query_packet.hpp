@@ -31,12 +31,8 @@ Hit described(double t, const Point& point, std::uint32_t entity_id, bool enteri
 }
 
 /// Returns what a hit is on. `point` is a SurfacePoint.
-inline HitPart part_of(const Leaf& leaf, std::uint32_t face, const SurfacePoint& point) {
-  return {.entity_id = leaf.entity_id,
-          .part_id = leaf.part_id,
-          .face = face,
-          .u = point.u,
-          .v = point.v};
+inline HitPart part_of(const Ids& ids, std::uint32_t face, const SurfacePoint& point) {
+  return {.entity_id = ids.entity, .part_id = ids.part, .face = face, .u = point.u, .v = point.v};
 }
 
 /// Distances are where distances are written, and the ids of what was hit, if anybody asks.
@@ -145,6 +141,10 @@ class QueryPacket {
     const RayMask found =
         mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
     set_distances(first / lane_count, t, found, [&](std::size_t lane) { return group[lane].leaf; });
+    if (!data_.has_instances()) return;
+    for_each_ray(found, [&](std::size_t lane) {
+      ids_[lane] = static_cast<std::int32_t>(data_.entity_id(group[lane]));
+    });
   }
   /// Sets the distances of a group's hits, at the traced rays' t. leaf_of(lane) is the leaf that
   /// was hit.
@@ -209,7 +209,7 @@ class QueryPacket {
       const RayHit& hit = hits_[first + lane];
       answers[lane] = (found_ >> lane & 1u) == 0
                           ? HitPart{}
-                          : part_of(data_.leaf(hit), hit.face, lane_of(points_, lane));
+                          : part_of(data_.ids(hit), hit.face, lane_of(points_, lane));
     }
   }
 

@@ -159,7 +159,7 @@ class Marks {
 /// Returns the line through something long in the world, or nothing if the object is not a single
 /// shape.
 std::optional<CoreSegment> core_segment_of(const CompiledScene& scene, const SceneObject& object) {
-  if (object.is_csg()) return std::nullopt;
+  if (object.is_csg() || object.is_instance()) return std::nullopt;
   const Leaf& leaf = scene.leaves[object.first_leaf];
   std::optional<CoreSegment> segment = leaf.shape->core_segment();
   if (!segment) return segment;

@@ -30,14 +30,14 @@ ShadingNormal shading_normal(const Leaf& leaf, std::uint32_t face, const Surface
 
 /// Returns a normal for shading in the world, tilted by the material's bumps. `normal` and the
 /// point are in object space.
-Vec3 bumped_normal(const Leaf& leaf, std::uint32_t face, const PreparedMaterial& material,
+Vec3 bumped_normal(const LeafOfHit& hit, std::uint32_t face, const PreparedMaterial& material,
                    const SurfacePoint& point, const Vec3& normal, Workspace& work) {
   const LuminanceGradient luminance =
-      luminance_gradient(*material.bump, point, *leaf.shape, face, work.scratch);
+      luminance_gradient(*material.bump, point, *hit.leaf().shape, face, work.scratch);
   work.stats.pattern_lookups += static_cast<std::uint64_t>(luminance.lookups);
   const Vec3 height_gradient =
-      material.description->bump_height * leaf.placement->covector_to_world(luminance.gradient);
-  return tilted_normal(leaf.placement->normal_to_world(normal), height_gradient);
+      material.description->bump_height * hit.placement().covector_to_world(luminance.gradient);
+  return tilted_normal(hit.placement().normal_to_world(normal), height_gradient);
 }
 
 /// AlikeHits are rays of a group that hit one face, or spheres of one material, from the same side.
@@ -73,13 +73,13 @@ void set_shading_normals(const PreparedData& data, const AlikeHits& alike,
   const double to_viewer = alike.first.entering ? 1 : -1;
   for_each_ray(alike.rays, [&](std::size_t lane) {
     const RayHit& hit = alike.hits[lane];
-    const Leaf& leaf = data.leaf(hit);
+    const LeafOfHit in_place = data.placed_leaf(hit);
     const SurfacePoint point = lane_of(points, lane);
-    const auto [plain, horizon] = shading_normal(leaf, hit.face, point);
+    const auto [plain, horizon] = shading_normal(in_place.leaf(), hit.face, point);
     group.horizons[lane] = horizon;
     const Vec3 normal = alike.material.bump
-                            ? bumped_normal(leaf, hit.face, alike.material, point, plain, work)
-                            : leaf.placement->normal_to_world(plain);
+                            ? bumped_normal(in_place, hit.face, alike.material, point, plain, work)
+                            : in_place.placement().normal_to_world(plain);
     group.phong.normal.set(lane, visible_normal(to_viewer * normal, group.phong.view.lane(lane)));
   });
 }

@@ -84,7 +84,7 @@ void Tracer::look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> p
     context_.data.hit_point(rays.batch.ray(i), hits.hits[i], false, point);
     places[i] = {.distance = point.t,
                  .entity_id = point.entity_id,
-                 .part_id = context_.data.leaf(hits.hits[i]).part_id};
+                 .part_id = context_.data.ids(hits.hits[i]).part};
   }
 }
 

@@ -1,0 +1,44 @@
+// Which entities are compiled once, however often they are placed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+
+#include "core/compile/part.hpp"
+#include "crt/entity.hpp"
+
+namespace crt::core {
+
+/// Returns whether a part of an operation is the one before it once more. Without this test
+/// a = a + a, done n times, would be 2^n parts.
+bool repeats(const CsgOperation& operation, std::size_t part);
+
+/// An Instancing counts how often nodes are used that are objects of a scene: entities, and parts
+/// of unions at the top. Solids of many leaves that are used often are worth sharing.
+class Instancing {
+ public:
+  /// Shares nothing.
+  Instancing() = default;
+  /// It takes O(n) for n entities and different nodes, which must outlive it.
+  explicit Instancing(std::span<const Entity> entities);
+
+  /// Returns whether all uses of a node share what it is compiled to.
+  bool is_shared(const EntityNode& node) const {
+    return !uses_.empty() && uses_.find(&node) != uses_.end();
+  }
+
+  /// A Count is of what is compiled.
+  struct Count {
+    std::uint64_t primitives = 0;  ///< of shared nodes once
+    std::uint64_t instances = 0;   ///< the uses of shared nodes
+  };
+  /// Counts what is compiled of entities. It stops at more than `most` of either.
+  Count count(std::span<const Entity> entities, std::uint64_t most) const;
+
+ private:
+  /// Holds the nodes that are shared, and how often they are used.
+  std::unordered_map<const EntityNode*, std::uint32_t> uses_;
+};
+
+}  // namespace crt::core
