@@ -9,6 +9,8 @@
 
 #include "core/compile/compile.hpp"
 #include "core/prepare/prepared_data.hpp"
+#include "crt/error.hpp"
+#include "crt/query.hpp"
 #include "crt/render.hpp"
 #include "support/same_answers.hpp"
 
@@ -50,6 +52,37 @@ Entity make_solid() {
   return csg_union(parts);
 }
 
+/// Returns a ball of triangles, made anew. It is open if it lacks its pole.
+Entity make_ball(bool is_open = false) {
+  constexpr std::uint32_t rows = 8;
+  constexpr std::uint32_t columns = 16;
+  std::vector<Vec3> corners{{0, 0, 1}, {0, 0, -1}};
+  std::vector<TriangleIndices> triangles;
+  const auto corner = [](std::uint32_t row, std::uint32_t column) {
+    if (row == 0) return 0u;
+    return row == rows ? 1u : 2 + (row - 1) * columns + column % columns;
+  };
+  for (std::uint32_t row = 1; row < rows; ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const double down = 3.14159 * row / rows;
+      const double around = 6.28318 * column / columns;
+      corners.push_back(
+          {std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down)});
+    }
+  }
+  for (std::uint32_t row = is_open ? 1 : 0; row < rows; ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const std::uint32_t a = corner(row, column);
+      const std::uint32_t b = corner(row + 1, column);
+      const std::uint32_t c = corner(row + 1, column + 1);
+      const std::uint32_t d = corner(row, column + 1);
+      if (b != c) triangles.push_back({a, b, c});
+      if (a != d) triangles.push_back({a, c, d});
+    }
+  }
+  return triangle_mesh(corners, triangles);
+}
+
 /// Places 961 solids, each of them make(), far enough apart.
 template <class Make>
 std::vector<Entity> placed(const Make& make) {
@@ -79,13 +112,17 @@ Scene scene_of(std::vector<Entity> entities, Precision precision) {
   return scene;
 }
 
-Scene shared_scene(Precision precision) {
-  const Entity one = make_solid();
+template <class Make>
+Scene shared_scene(Precision precision, const Make& make) {
+  const Entity one = make();
   return scene_of(placed([&] { return one; }), precision);
+}
+Scene shared_scene(Precision precision) {
+  return shared_scene(precision, make_solid);
 }
 
 Scene scene_of_copies(Precision precision) {
-  return scene_of(placed([] { return make_solid(); }), precision);
+  return scene_of(placed(make_solid), precision);
 }
 
 void check_equal(const PreparedData& shared, const PreparedData& copies, const WorldRay& ray,
@@ -153,6 +190,22 @@ int follow(const PreparedData& shared, const PreparedData& copies, WorldRay ray)
   return met;
 }
 
+void check_follows(const Scene& shared, const Scene& copies, int rays) {
+  const PreparedData data(shared);
+  const PreparedData data_of_copies(copies);
+  CHECK(data_of_copies.compiled().instances.empty());
+  Numbers numbers(3);
+  int met = 0;
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 from = Vec3(80, 80, 4) * numbers.point(1) + Vec3(0, 0, 3);
+    Vec3 direction = numbers.direction();
+    if (i % 2 == 0) direction.z = -0.2 * std::abs(direction.z);
+    if (i % 7 == 0) direction.y = 0;
+    met += follow(data, data_of_copies, {.origin = from, .direction = glm::normalize(direction)});
+  }
+  CHECK(met > rays);
+}
+
 }  // namespace
 
 TEST_CASE("a solid that is placed often is compiled once") {
@@ -168,20 +221,94 @@ TEST_CASE("a solid that is placed often is compiled once") {
 
 TEST_CASE("rays find the same to the last bit, whether solids share what they are made of or not") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
-    const PreparedData shared(shared_scene(precision));
-    const PreparedData copies(scene_of_copies(precision));
-    Numbers numbers(3);
     const int rays = precision == Precision::standard ? 3000 : 300;
-    int met = 0;
-    for (int i = 0; i < rays; ++i) {
-      const Vec3 from = Vec3(80, 80, 4) * numbers.point(1) + Vec3(0, 0, 3);
-      Vec3 direction = numbers.direction();
-      if (i % 2 == 0) direction.z = -0.2 * std::abs(direction.z);
-      if (i % 7 == 0) direction.y = 0;
-      met += follow(shared, copies, {.origin = from, .direction = glm::normalize(direction)});
-    }
-    CHECK(met > rays);
+    check_follows(shared_scene(precision), scene_of_copies(precision), rays);
   }
+}
+
+TEST_CASE("rays find the same on meshes, closed or open, whether these are shared or not") {
+  for (const bool is_open : {false, true}) {
+    const auto make = [is_open] { return make_ball(is_open); };
+    const Scene shared = shared_scene(Precision::standard, make);
+    CHECK(compile(shared.entities).instances.size() == 961);
+    check_follows(shared, scene_of(placed(make), Precision::standard), 500);
+  }
+}
+
+TEST_CASE("parts of a union are shared where they are apart, and else are one solid") {
+  for (const double step : {5.0, 2.5}) {
+    const auto united = [step](const auto& make) {
+      std::vector<Entity> parts;
+      for (int i = 0; i < 1000; ++i) {
+        const Vec3 to(step * (i % 32) - 40, step * (i / 32) - 40, 0);
+        parts.push_back(make().transformed(Transform{.translation = to}));
+      }
+      return scene_of({csg_union(parts)}, Precision::standard);
+    };
+    const Entity one = make_solid();
+    const Scene shared = united([&] { return one; });
+    CHECK(compile(shared.entities).instances.size() == (step == 5.0 ? 1000 : 0));
+    check_follows(shared, united(make_solid), 500);
+  }
+}
+
+TEST_CASE("instances touch as copies do") {
+  // Bricks of glass fill the ground. Each has a hole and a stud that fits into it.
+  const auto make = [] {
+    const SharedMaterial glass{Material{.transparency = 0.75, .refractive_index = 1.5}};
+    const Entity brick = Box{.corner_a = {0, 0, 0}, .corner_b = {2, 1, 1}, .material = glass};
+    const Entity hole = Cylinder{.from = {1, 0.5, 0}, .to = {1, 0.5, 0.5}, .radius = 0.25};
+    const Entity stud = Cylinder{.from = {1, 0.5, 1}, .to = {1, 0.5, 1.5}, .radius = 0.25};
+    return (brick - hole) + stud.with_material(glass);
+  };
+  const auto wall = [](const auto& brick) {
+    std::vector<Entity> bricks;
+    for (int i = 0; i < 16'384; ++i) {
+      const Vec3 to(2 * (i % 32) - 32, i / 32 % 32 - 16, i / 1024);
+      bricks.push_back(brick().transformed(Transform{.translation = to}));
+    }
+    return scene_of(bricks, Precision::standard);
+  };
+  const Entity one = make();
+  check_follows(wall([&] { return one; }), wall(make), 500);
+}
+
+TEST_CASE("an instance counts as one primitive, and one at the same place is none") {
+  const Entity one = make_solid();
+  std::vector<Entity> entities = placed([&] { return one; });
+  for (std::size_t i = 0; i < 961; ++i) entities.push_back(entities[i]);
+  Scene scene;
+  scene.entities = entities;
+  CHECK(compile(entities).objects.size() == 961);
+  CHECK_NOTHROW(prepare(scene, {.max_primitives = 2 * 961 + 36}));
+  CHECK_THROWS_AS(prepare(scene, {.max_primitives = 2 * 961 + 35}), Error);
+}
+
+TEST_CASE("queries name the instances of a scene that has nothing else") {
+  const Entity one = make_ball();
+  Scene scene;
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    const Entity ball = one.transformed(Transform{.translation = {3.0 * i, 0, 0}});
+    scene.entities.push_back(i % 2 == 0 ? ball : ball.with_id(1000 + i));
+  }
+  const PreparedScene prepared = prepare(scene);
+  RayQueries queries(prepared);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 401; ++i)
+    rays.push_back({.origin = {3.0 * i, 0.1, -9}, .direction = {0, 0, 1}});
+  std::vector<double> distances(rays.size());
+  std::vector<std::uint32_t> ids(rays.size());
+  std::vector<HitPart> parts(rays.size());
+  queries.distances(rays, distances, ids);
+  queries.parts(rays, parts);
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    const std::uint32_t expected = i % 2 == 0 ? i : 1000 + i;
+    CHECK(ids[i] == expected);
+    CHECK(parts[i].entity_id == expected);
+    CHECK(parts[i].part_id == expected);
+    CHECK(distances[i] == doctest::Approx(8).epsilon(0.01));
+  }
+  CHECK(std::isinf(distances[400]));
 }
 
 TEST_CASE("rays find the same instances together as alone") {

@@ -328,7 +328,8 @@ void Compiler::finish_objects() {
   for (SceneObject& object : flat_.objects) {
     object.bounds = bounds_of(object);
     // A surface that is no solid is an object by itself.
-    if (!object.solid) result_.leaves[object.first_leaf].of_solid = false;
+    if (!object.solid && !object.is_instance())
+      result_.leaves[object.first_leaf].of_solid = false;
     if (!object.bounds.empty()) result_.objects.push_back(object);
   }
 }

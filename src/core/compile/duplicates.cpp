@@ -336,8 +336,10 @@ void remove_equal_instances(FlatScene& scene, const Workers& workers) {
     // Equal ones follow one another, unless others have their hash, which may hide some.
     drops[hashed[i].object] = are_equal(hashed[i - 1], hashed[i]);
   }
-  std::erase_if(scene.objects,
-                [&, index = std::size_t{0}](const SceneObject&) mutable { return drops[index++]; });
+  // Each is looked at where it stood.
+  std::erase_if(scene.objects, [&](const SceneObject& object) {
+    return drops[static_cast<std::size_t>(&object - scene.objects.data())];
+  });
 }
 
 bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves,

@@ -126,7 +126,13 @@ void Flattening::add_entity(const Part& entity, const PrimitiveLimit& limit) {
     }
   }
   add_solids(limit);
-  for (const Part& surface : surfaces_) add_group(std::span(&surface, 1));
+  for (const Part& surface : surfaces_) {
+    if (instancing_.is_shared(*surface.node)) {
+      add_instance(surface);
+    } else {
+      add_group(std::span(&surface, 1));
+    }
+  }
 }
 
 std::unordered_map<const EntityNode*, Bounds> Flattening::bounds_of_shared() const {
@@ -169,6 +175,7 @@ void Flattening::add_solids(const PrimitiveLimit& limit) {
 void Flattening::add_instance(const Part& part) {
   SceneObject object;
   object.instance = static_cast<std::uint32_t>(result_.instances.size());
+  object.solid = part.node->solid;
   result_.objects.push_back(object);
   result_.instances.push_back({.to_world = part.to_world,
                                .prototype = prototype_number(part),

@@ -10,8 +10,8 @@ namespace {
 
 /// Copies that are used less often are compiled each for itself, which makes rays faster.
 constexpr std::uint64_t fewest_uses = 16;
-/// So are copies that have fewer leaves all together.
-constexpr std::uint64_t fewest_leaves = std::uint64_t{1} << 15;
+/// So are copies that have fewer primitives all together.
+constexpr std::uint64_t fewest_primitives = std::uint64_t{1} << 15;
 
 const EntityNode& without_wrapper(const EntityNode& node) {
   const auto* const wrapper = std::get_if<EntityWrapper>(&node.content);
@@ -31,9 +31,10 @@ bool repeats(const CsgOperation& operation, std::size_t part) {
 }
 
 Instancing::Instancing(std::span<const Entity> entities) {
-  std::uint64_t leaves = 0;
-  for (const Entity& entity : entities) leaves += entity.node().leaf_count;
-  if (leaves < fewest_leaves) return;
+  std::uint64_t primitives = 0;
+  for (const Entity& entity : entities)
+    primitives += std::min(entity.node().primitive_count, fewest_primitives);
+  if (primitives < fewest_primitives) return;
   std::vector<const EntityNode*> open;
   const auto use = [&](const EntityNode& wrapped) {
     const EntityNode& node = without_wrapper(wrapped);
@@ -51,8 +52,10 @@ Instancing::Instancing(std::span<const Entity> entities) {
   }
   std::erase_if(uses_, [](const auto& used) {
     const auto& [node, uses] = used;
-    const std::uint64_t copies = std::uint64_t{node->leaf_count} * uses;
-    return !node->solid || node->leaf_count < 2 || uses < fewest_uses || copies < fewest_leaves;
+    // Unions of surfaces are as many objects.
+    const bool is_one_object = node->solid || std::holds_alternative<Primitive>(node->content);
+    const std::uint64_t count = std::min(node->primitive_count, fewest_primitives);
+    return !is_one_object || count < 2 || uses < fewest_uses || count * uses < fewest_primitives;
   });
 }
 

@@ -15,7 +15,8 @@ namespace crt::core {
 bool repeats(const CsgOperation& operation, std::size_t part);
 
 /// An Instancing counts how often nodes are used that are objects of a scene: entities, and parts
-/// of unions at the top. Solids of many leaves that are used often are worth sharing.
+/// of unions at the top. What has several primitives, as a mesh has, and is used often is worth
+/// sharing. A single primitive is not: rays meet it faster where it is compiled for its place.
 class Instancing {
  public:
   /// Shares nothing.

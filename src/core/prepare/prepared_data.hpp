@@ -165,8 +165,8 @@ class PreparedData {
   /// Returns the user's numbers of what was hit.
   Ids ids(const RayHit& hit) const { return ids_of(*compiled_, hit); }
 
-  /// Returns the user's number of a leaf's entity, without a branch. For no leaf, and for one of an
-  /// instance, it is any number, if there are entities.
+  /// Returns the user's number of a leaf's entity, without a branch. For no leaf it is any number.
+  /// The scene has leaves, and none of instances.
   std::uint32_t entity_id_or_any(std::uint32_t leaf) const {
     return entity_ids_[leaf < entity_ids_.size() ? leaf : 0];
   }

@@ -95,8 +95,9 @@ class QueryPacket {
       const std::size_t group = first / lane_count;
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
       if (are_resolved) {
-        set_distances(group, leaves.t[group], RayPacket::lanes(leaves.found, group),
-                      [&](std::size_t lane) { return leaves.leaves[first + lane]; });
+        set_distances(
+            group, leaves.t[group], RayPacket::lanes(leaves.found, group),
+            [&](std::size_t lane) { return data_.entity_id_or_any(leaves.leaves[first + lane]); });
       } else {
         find_distances(first, count);
       }
@@ -140,16 +141,19 @@ class QueryPacket {
     // A ray that has found nothing has an infinite t.
     const RayMask found =
         mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
-    set_distances(first / lane_count, t, found, [&](std::size_t lane) { return group[lane].leaf; });
-    if (!data_.has_instances()) return;
-    for_each_ray(found, [&](std::size_t lane) {
-      ids_[lane] = static_cast<std::int32_t>(data_.entity_id(group[lane]));
-    });
+    if (data_.has_instances()) {
+      set_distances(first / lane_count, t, found, [&](std::size_t lane) {
+        return (found >> lane & 1u) != 0 ? data_.entity_id(group[lane]) : no_entity_id;
+      });
+    } else {
+      set_distances(first / lane_count, t, found,
+                    [&](std::size_t lane) { return data_.entity_id_or_any(group[lane].leaf); });
+    }
   }
-  /// Sets the distances of a group's hits, at the traced rays' t. leaf_of(lane) is the leaf that
-  /// was hit.
-  template <class LeafOf>
-  void set_distances(std::size_t group, const Lanes& t, RayMask found, const LeafOf& leaf_of) {
+  /// Sets the distances of a group's hits, at the traced rays' t. id_of(lane) is the user's number
+  /// of the entity that was hit, or any for rays that have found nothing.
+  template <class IdOf>
+  void set_distances(std::size_t group, const Lanes& t, RayMask found, const IdOf& id_of) {
     found_ = found;
     if (found == 0) return;
     const Lanes& factors = to_users_t_[group];
@@ -158,9 +162,7 @@ class QueryPacket {
       const std::size_t index = group * lane_count + lane;
       t_[lane] = users_t(users_[index], t[lane], hits_[index].t_low);
     });
-    const auto id = [&](std::size_t lane) {
-      return static_cast<std::int32_t>(data_.entity_id_or_any(leaf_of(lane)));
-    };
+    const auto id = [&](std::size_t lane) { return static_cast<std::int32_t>(id_of(lane)); };
     ids_ = lanes_of<IntLanes>(id(0), id(1), id(2), id(3));
   }
   void find_sides(std::size_t first) {
