@@ -190,7 +190,8 @@ int follow(const PreparedData& shared, const PreparedData& copies, WorldRay ray)
   return met;
 }
 
-void check_follows(const Scene& shared, const Scene& copies, int rays) {
+void check_follows(const Scene& shared, const Scene& copies, int rays, double scale = 1,
+                   const Vec3& offset = Vec3(0)) {
   const PreparedData data(shared);
   const PreparedData data_of_copies(copies);
   CHECK(data_of_copies.compiled().instances.empty());
@@ -201,7 +202,8 @@ void check_follows(const Scene& shared, const Scene& copies, int rays) {
     Vec3 direction = numbers.direction();
     if (i % 2 == 0) direction.z = -0.2 * std::abs(direction.z);
     if (i % 7 == 0) direction.y = 0;
-    met += follow(data, data_of_copies, {.origin = from, .direction = glm::normalize(direction)});
+    met += follow(data, data_of_copies,
+                  {.origin = scale * from + offset, .direction = glm::normalize(direction)});
   }
   CHECK(met > rays);
 }
@@ -223,6 +225,21 @@ TEST_CASE("rays find the same to the last bit, whether solids share what they ar
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     const int rays = precision == Precision::standard ? 3000 : 300;
     check_follows(shared_scene(precision), scene_of_copies(precision), rays);
+  }
+}
+
+TEST_CASE("rays find the same on small instances far from the origin, and on large ones") {
+  struct {
+    double scale;
+    Vec3 offset;
+  } const places[] = {{1, {3e8, -7e8, 1e9}}, {1e-4, {1e3, 0, -1e4}}, {1e9, {1e8, 0, 0}}};
+  for (const auto& [scale, offset] : places) {
+    const auto moved = [&](Scene scene) {
+      for (Entity& entity : scene.entities) entity = entity.transformed(turned(0, scale, offset));
+      return scene;
+    };
+    check_follows(moved(shared_scene(Precision::standard)),
+                  moved(scene_of_copies(Precision::standard)), 500, scale, offset);
   }
 }
 
