@@ -127,9 +127,9 @@ void TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask sh
   largest_error_ = std::max(largest_error_, crossing.error);
 }
 
-/// Returns whether the line passes a corner of a piece in a way that the number of crossings may not
-/// show. A line that is nearly across the axis does so twice. It may pass between the corner that
-/// an arc has and its circle, too, and cross its chord there.
+/// Returns whether the line passes a corner of a piece in a way that the number of crossings may
+/// not show. A line that is nearly across the axis does so twice. It may pass between the corner
+/// that an arc has and its circle, too, and cross its chord there.
 bool TurnedWalls::passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const {
   const auto passes = [&](const Vec3& corner) {
     if (search.is_along(corner)) return true;
