@@ -179,7 +179,6 @@ CompiledScene Compiler::compile_prototype() {
 }
 
 void Compiler::make_prototypes() {
-  if (flat_.prototypes.empty()) return;
   for (const PrototypeSource& source : flat_.prototypes) {
     workers_.poll();
     CompiledScene prototype =
@@ -326,6 +325,7 @@ void Compiler::finish_program(CsgProgram& program) {
 void Compiler::finish_objects() {
   result_.objects.reserve(flat_.objects.size());
   for (SceneObject& object : flat_.objects) {
+    workers_.poll_at(result_.objects.size());
     object.bounds = bounds_of(object);
     // A surface that is no solid is an object by itself.
     if (!object.solid && !object.is_instance())

@@ -173,6 +173,7 @@ void Flattening::add_solids(const PrimitiveLimit& limit) {
 }
 
 void Flattening::add_instance(const Part& part) {
+  workers_.poll_at(result_.instances.size());
   SceneObject object;
   object.instance = static_cast<std::uint32_t>(result_.instances.size());
   object.solid = part.node->solid;
