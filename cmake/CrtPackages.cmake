@@ -27,7 +27,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 # Every description ends with this.
 set(about "CRT renders solids that are described by their equations (spheres, boxes,
-cylinders, cones, capsules, tori, half-spaces, extruded and revolved profiles,
+cylinders, cones, capsules, tori, quadrics, half-spaces, extruded and revolved profiles,
 added, subtracted and intersected) without cutting them into triangles.")
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${runtime_package})

@@ -698,6 +698,21 @@ CRT_API crt_status crt_height_field_create(const double* heights, uint32_t colum
                                            crt_entity** out);
 
 /**
+ * Makes a quadric: all points (x, y, z) for which the sum of the ten terms is not above 0. It must
+ * be below 0 at some points and above 0 at others. So an ellipsoid, a paraboloid, a hyperboloid, a
+ * cone or a cylinder is a quadric. All but ellipsoids are infinite. Coefficients may be any finite
+ * numbers, if the quadric has a size from 1e-100 to 1e100, and no coefficient but 0 is below 1e-200
+ * of the largest, with that size as the unit of length. The size is the larger of sqrt(|constant| /
+ * a) and l / a. Here l is the largest magnitude in `linear`, and a that in `squares` and
+ * `products`. If a is 0 it is |constant| / l, and if all that is 0 it is 1. Since 1.1.
+ * @param squares   of x^2, y^2 and z^2
+ * @param products  of x y, x z and y z
+ * @param linear    of x, y and z
+ */
+CRT_API crt_status crt_quadric_create(const double squares[3], const double products[3],
+                                      const double linear[3], double constant, crt_entity** out);
+
+/**
  * Makes the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No
  * ray meets it. In combinations it behaves as the empty set. No transform, material or id changes
  * it.

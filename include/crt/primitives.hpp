@@ -233,8 +233,29 @@ struct HeightField {
   std::optional<SharedMaterial> material{};
 };
 
+/// A Quadric has all points (x, y, z) for which
+///   squares.x x^2 + squares.y y^2 + squares.z z^2 + products.x x y + products.y x z + products.z y
+///   z
+///   + linear.x x + linear.y y + linear.z z + constant <= 0.
+/// So ellipsoids, paraboloids, hyperboloids, cones, cylinders and what is between two planes are
+/// quadrics. All but ellipsoids are infinite. The sum must be below 0 at some points and above 0 at
+/// others.
+///
+/// The size of a quadric is the larger of sqrt(|constant| / a) and l / a. Here l is the largest
+/// magnitude in `linear`, and a that in `squares` and `products`. If a is 0 the size is |constant|
+/// / l, and if all that is 0 it is 1. It must be from 1e-100 to 1e100. In units of this size, no
+/// coefficient but 0 may be below 1e-200 of the largest. The coefficients themselves may be any
+/// finite numbers. u is the angle about the y axis, from +z towards +x, in [0, 1]. v is y.
+struct Quadric {
+  Vec3 squares{1, 1, 1};
+  Vec3 products{0, 0, 0};  ///< of x y, of x z and of y z
+  Vec3 linear{0, 0, 0};
+  double constant = -1;
+  std::optional<SharedMaterial> material{};
+};
+
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle,
-                               Capsule, Mesh, Extrusion, Revolution, HeightField>;
+                               Capsule, Mesh, Extrusion, Revolution, HeightField, Quadric>;
 
 }  // namespace crt

@@ -29,6 +29,7 @@ __all__ = [
     "HalfPlane",
     "HeightField",
     "Plane",
+    "Quadric",
     "Revolution",
     "Sphere",
     "Torus",
@@ -387,6 +388,34 @@ class HeightField(_Primitive):
         shown = {"heights": f"<{rows} x {columns}>", "corner_a": tuple(a), "corner_b": tuple(b)}
         arrays = grid.ctypes.data, columns, rows
         self._create("crt_height_field_create", material, id, shown, *arrays, a, b)
+
+
+class Quadric(_Primitive):
+    """A Quadric is all points for which a sum is at most 0: `squares` times x x, y y and z z,
+    `products` times x y, x z and y z, `linear` times x, y and z, and `constant`. All but
+    ellipsoids are infinite."""
+
+    squares = _Given[Vector]()
+    products = _Given[Vector]()
+    linear = _Given[Vector]()
+    constant = _Given[float]()
+
+    def __init__(
+        self,
+        squares: Point,
+        products: Point,
+        linear: Point,
+        constant: SupportsFloat,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        vectors = self._vectors(squares=squares, products=products, linear=linear)
+        number = _arguments.number(constant, "Quadric: constant")
+        names = "squares", "products", "linear"
+        shown: dict[str, Any] = {key: tuple(v) for key, v in zip(names, vectors, strict=True)}
+        shown["constant"] = number
+        self._create("crt_quadric_create", material, id, shown, *vectors, number)
 
 
 class Torus(_Primitive):

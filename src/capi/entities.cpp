@@ -145,6 +145,16 @@ crt_status crt_height_field_create(const double* heights, uint32_t columns, uint
   });
 }
 
+crt_status crt_quadric_create(const double squares[3], const double products[3],
+                              const double linear[3], double constant, crt_entity** out) {
+  return create(out, [&] {
+    return crt::Quadric{.squares = to_vec3(squares, "squares"),
+                        .products = to_vec3(products, "products"),
+                        .linear = to_vec3(linear, "linear"),
+                        .constant = constant};
+  });
+}
+
 crt_status crt_empty_create(crt_entity** out) {
   return create(out, [] { return crt::empty_entity(); });
 }

@@ -145,6 +145,8 @@ void Session::make_primitive() {
         return crt_height_field_create(heights, input_.below(4), input_.below(3), b.data(),
                                        c.data(), out);
       }
+      case 13:
+        return crt_quadric_create(a.data(), b.data(), c.data(), r, out);
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};

@@ -135,6 +135,14 @@ HeightField times(HeightField s, double k) {
   s.corner_b *= k;
   return s;
 }
+Quadric times(Quadric s, double k) {
+  s.squares /= k;
+  s.squares /= k;
+  s.products /= k;
+  s.products /= k;
+  s.linear /= k;
+  return s;
+}
 Triangle times(Triangle s, double k) {
   s.a *= k;
   s.b *= k;

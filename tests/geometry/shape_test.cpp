@@ -51,7 +51,7 @@ TEST_CASE(
   const HeightField field{.heights = make_height_grid({0, 0.5, 1, 0}, 2, 2)};
   const Primitive all[] = {Sphere{}, Box{},     Plane{},    HalfPlane{}, Cylinder{},
                            Cone{},   Torus{},   Disc{},     Triangle{},  Capsule{},
-                           mesh,     extrusion, revolution, field};
+                           mesh,     extrusion, revolution, field,       Quadric{}};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
@@ -124,6 +124,10 @@ TEST_CASE("every field of every primitive is checked") {
   const Vec3 next(std::nextafter(1.0, 2.0), 1, 1);
   CHECK(argument(HeightField{.heights = grid, .corner_a = {1, 0, 0}, .corner_b = next}) ==
         "corner_b");
+  CHECK(argument(Quadric{.squares = bad}) == "squares");
+  CHECK(argument(Quadric{.products = {0, inf, 0}}) == "products");
+  CHECK(argument(Quadric{.linear = bad}) == "linear");
+  CHECK(argument(Quadric{.constant = -inf}) == "constant");
   CHECK(argument(Torus{.center = bad}) == "center");
   CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
   CHECK(argument(Torus{.radius = 0}) == "radius");
@@ -158,6 +162,40 @@ TEST_CASE("profiles of revolutions are checked, and errors name the corner") {
   CHECK(fault_of({circle(0.3, 0.1, 0.3)}) == "");
   CHECK(fault_of({{{0, -1}, {0, 1, 1}}}) == "");
   CHECK(fault_of({rectangle(0, 0, 1e100, 1e-100)}) == "");
+}
+
+TEST_CASE("a quadric has a surface, a size, and no coefficients that are lost beside the others") {
+  const std::string size = "and linear must give the quadric a size from 1e-100 to 1e100";
+  CHECK(fault(Quadric{.squares = {0, 0, 0}}) ==
+        "squares: squares must not be 0 together with products and linear");
+  CHECK(fault(Quadric{.constant = -0x1p700}) == "constant: constant " + size);
+  CHECK(fault(Quadric{.linear = {1e-101, 0, 0}, .constant = 0}) == "constant: constant " + size);
+  CHECK(fault(Quadric{.squares = {0, 0, 0}, .linear = {1e308, 0, 0}, .constant = 1e-308}) ==
+        "constant: constant " + size);
+  CHECK(fault(Quadric{.squares = {1e300, 1e300, 1e300}, .constant = -1e300}) == "");
+  CHECK(fault(Quadric{.squares = {5e-324, 0, 0}, .linear = {0, 1e-308, 0}, .constant = 0}) == "");
+  CHECK(argument(Quadric{.squares = {1, 1, 1e-201}}) == "squares");
+  CHECK(argument(Quadric{.squares = {1e300, 1e-300, 1}, .constant = 0}) == "squares");
+  CHECK(argument(Quadric{.products = {1e-201, 0, 0}}) == "products");
+  CHECK(argument(Quadric{.linear = {0, 1e-201, 0}}) == "linear");
+  CHECK(fault(Quadric{.squares = {1, 1, 1e-199}}) == "");
+
+  const std::string empty =
+      "constant: constant must leave points where the sum is below 0, as the quadric is empty";
+  CHECK(fault(Quadric{.constant = 1}) == empty);
+  CHECK(fault(Quadric{.constant = 0}) == empty);                        // a point
+  CHECK(fault(Quadric{.squares = {1, 1, 0}, .constant = 0}) == empty);  // a line
+  CHECK(fault(Quadric{
+            .squares = {1, 4, 9}, .products = {4, 6, 12}, .linear = {2, 4, 6}, .constant = 1}) ==
+        empty);  // a plane, twice
+  CHECK(fault(Quadric{.squares = {1, 4, 9},
+                      .products = {4, 6, 12},
+                      .linear = {2, 4, 6},
+                      .constant = 1 - 0x1p-53}) == "");
+  CHECK(fault(Quadric{.squares = {-1, -1, 0}, .constant = 0}) ==
+        "constant: constant must leave points where the sum is above 0, as the quadric has no "
+        "surface");
+  CHECK(fault(Quadric{.squares = {0, 0, 0}, .products = {1, 0, 0}, .constant = 0}) == "");
 }
 
 TEST_CASE("values at the limits, slivers and spindles are accepted") {

@@ -284,6 +284,36 @@ Equations<Number> equations(const HeightField& field, const ExactLine<Number>& l
   return result;
 }
 
+/// Returns the matrix of second derivatives of a quadric's sum times a vector.
+template <class Number>
+NumberVec<Number> curved(const Quadric& q, const NumberVec<Number>& v) {
+  const Number xy(q.products.x);
+  const Number xz(q.products.y);
+  const Number yz(q.products.z);
+  const auto twice = [](double x) { return Number(2) * Number(x); };
+  return {twice(q.squares.x) * v[0] + xy * v[1] + xz * v[2],
+          xy * v[0] + twice(q.squares.y) * v[1] + yz * v[2],
+          xz * v[0] + yz * v[1] + twice(q.squares.z) * v[2]};
+}
+
+/// Returns the gradient of a quadric's sum at a point.
+template <class Number>
+NumberVec<Number> slope_at(const Quadric& q, const NumberVec<Number>& p) {
+  return curved(q, p) + exactly<Number>(q.linear);
+}
+
+// A quadric has the equation of twice its sum.
+template <class Number>
+Equations<Number> equations(const Quadric& q, const ExactLine<Number>& line) {
+  const Relative relative(line, Vec3(0));
+  const NumberVec<Number>& p = relative.point;
+  const NumberVec<Number>& d = relative.direction;
+  const NumberVec<Number> slope = slope_at(q, p);
+  const Number constant = Number(2) * Number(q.constant);
+  return {{dot(p, slope + exactly<Number>(q.linear)) + constant, Number(2) * dot(d, slope),
+           dot(d, curved(q, d))}};
+}
+
 template <class Number>
 Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>& line) {
   return std::visit([&](const auto& p) { return equations(p, line); }, primitive);

@@ -118,6 +118,13 @@ double gradient(const HeightField& field, std::size_t which, const ExactLine<Num
   return glm::length(rounded(normal_of<Number>(triangle)));
 }
 
+template <class Number>
+double gradient(const Quadric& quadric, std::size_t, const ExactLine<Number>& line,
+                const Number& x) {
+  const NumberVec<Number> p = line.from(Vec3(0)) + x * line.direction;
+  return 2 * glm::length(rounded(slope_at(quadric, p)));
+}
+
 /// Returns where a line meets a surface's plane, relative to its position, times `w` (so that it is
 /// exact).
 template <class Number>

@@ -46,6 +46,12 @@ Primitive scaled(Primitive primitive, double factor) {
           p.to *= factor;
         } else if constexpr (std::is_same_v<P, Revolution>) {
           p.profile = scaled_profile(*p.profile, factor);
+        } else if constexpr (std::is_same_v<P, Quadric>) {
+          p.squares /= factor;
+          p.squares /= factor;
+          p.products /= factor;
+          p.products /= factor;
+          p.linear /= factor;
         } else if constexpr (std::is_same_v<P, Mesh>) {
           p = scaled_mesh(p, factor);
         } else {

@@ -208,6 +208,29 @@ bool meet(const Capsule& c, const Vec3& o, const Vec3& d, core::CrossingList& ou
   return emit(span, out);
 }
 
+bool meet(const Quadric& q, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const auto mixed = [](const Vec3& v) { return Vec3(v.x * v.y, v.x * v.z, v.y * v.z); };
+  const Vec3 crossed(o.x * d.y + o.y * d.x, o.x * d.z + o.z * d.x, o.y * d.z + o.z * d.y);
+  const double a = glm::dot(q.squares, d * d) + glm::dot(q.products, mixed(d));
+  const double b =
+      2 * glm::dot(q.squares, o * d) + glm::dot(q.products, crossed) + glm::dot(q.linear, d);
+  const double c = glm::dot(q.squares, o * o) + glm::dot(q.products, mixed(o)) +
+                   glm::dot(q.linear, o) + q.constant;
+  if (a == 0) {
+    if (b == 0) return c < 0;
+    out.push_back({.t = -c / b, .entering = b < 0});
+    return b > 0;
+  }
+  const double discriminant = b * b - 4 * a * c;
+  if (discriminant <= 0) return a < 0;
+  const double root = std::sqrt(discriminant);
+  const double first = (-b - root) / (2 * a);
+  const double second = (-b + root) / (2 * a);
+  out.push_back({.t = std::min(first, second), .entering = a > 0});
+  out.push_back({.t = std::max(first, second), .entering = a < 0});
+  return a < 0;
+}
+
 using Complex = std::complex<double>;
 
 /// Returns the roots of x^4 + b x^3 + c x^2 + d x + e by Ferrari's formula.

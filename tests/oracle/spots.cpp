@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "oracle/number_vec.hpp"
+#include "oracle/quadric_spots.hpp"
 namespace crt::test {
 
 Frame across(const Vec3& v) {

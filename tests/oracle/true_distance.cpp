@@ -154,6 +154,20 @@ double outside(const HeightField& field, const IntervalVec& p) {
   return std::max(beside, top);
 }
 
+/// Returns a distance that the point has at least, by the most that the gradient can change on the
+/// way to the surface.
+double outside(const Quadric& q, const IntervalVec& p) {
+  const IntervalVec slope = slope_at(q, p);
+  const Interval twice =
+      dot(p, slope + exactly<Interval>(q.linear)) + Interval(2) * Interval(q.constant);
+  const double sum = value_if_certain(twice) / 2;
+  const double steepness = glm::length(rounded(slope));
+  const double bend =
+      std::sqrt(4 * glm::dot(q.squares, q.squares) + 2 * glm::dot(q.products, q.products));
+  const double most = steepness + std::sqrt(steepness * steepness + 2 * bend * std::abs(sum));
+  return sum == 0 ? 0 : 2 * sum / most;
+}
+
 Vec3 middle(const Vec3& a, const Vec3& b) {
   return a / 2.0 + b / 2.0;
 }
@@ -215,6 +229,9 @@ Ball ball_of(const Revolution& revolution) {
 Ball ball_of(const HeightField& field) {
   const Vec3 offset = field.corner_b - field.corner_a;
   return {middle(field.corner_a, field.corner_b), glm::length(offset) / 2};
+}
+Ball ball_of(const Quadric&) {
+  return {Vec3(0), 0};
 }
 Ball ball_of(const Mesh& mesh) {
   const core::Bounds& box = mesh.triangles->bounds();

@@ -27,9 +27,11 @@ CanonicalPlane canonical_plane(const Surface& plane, const Placement& placement)
   return CanonicalPlane::of(world_normal, world_offset);
 }
 
-/// A key begins with the words of the surface. Those of a placement come last, and are filled if it
-/// does more than move.
+/// A key begins with the words of the surface. Those of a placement come next, and are filled if it
+/// does more than move. Those that only quadrics have come last.
 constexpr std::size_t words_of_surface = 9;
+constexpr std::size_t sizes_of_most = 2;
+constexpr std::size_t words_before_more_sizes = words_of_surface + 12;
 
 /// Returns the surface in the world, without rounding.
 ExactSurface in_world(const ExactSurface& surface, const Placement& placement) {
@@ -249,12 +251,14 @@ CanonicalSurface canonical_surface(const Surface& surface, const Placement& plac
   }
   set(7, surface.sizes[0]);
   set(8, surface.sizes[1]);
+  for (std::size_t i = sizes_of_most; i < surface.sizes.size(); ++i)
+    set(words_before_more_sizes + i - sizes_of_most, surface.sizes[i]);
   return result;
 }
 
 std::uint64_t CanonicalSurface::hash() const {
   // This is FNV-1a over 64-bit words, mixed once more as words differ mostly in their high bits.
-  // Most placements leave their words 0.
+  // Most placements leave their words 0, as do all but quadrics.
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto mix = [&](std::uint64_t word) {
     hash = (hash ^ word) * 0x100000001b3u;

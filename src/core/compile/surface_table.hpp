@@ -17,9 +17,9 @@ namespace crt::core {
 /// forms are, bit for bit. Opposite planes are the same surface, one of them turned round. So are
 /// the insides and outsides of round surfaces.
 struct CanonicalSurface {
-  /// A Key has the kind, then up to 8 numbers of the surface and 12 of a placement that does more
-  /// than move.
-  using Key = std::array<std::uint64_t, 21>;
+  /// A Key has the kind, then up to 8 numbers of the surface, 12 of a placement that does more than
+  /// move, and 6 that only quadrics have.
+  using Key = std::array<std::uint64_t, 27>;
 
   Key key{};
   bool flipped = false;

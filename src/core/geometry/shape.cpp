@@ -14,6 +14,7 @@
 #include "core/geometry/height_field/height_field.hpp"
 #include "core/geometry/mesh/mesh.hpp"
 #include "core/geometry/plane/plane.hpp"
+#include "core/geometry/quadric/quadric.hpp"
 #include "core/geometry/revolution/revolution.hpp"
 #include "core/geometry/sphere/sphere.hpp"
 #include "core/geometry/torus/torus.hpp"
