@@ -96,7 +96,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(14);
+  const std::uint32_t kind = input_.below(15);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -144,6 +144,13 @@ void Session::make_primitive() {
         const double heights[6] = {r, s, a[0], b[1], 0.5, 1};
         return crt_height_field_create(heights, input_.below(4), input_.below(3), b.data(),
                                        c.data(), out);
+      }
+      case 13: {
+        constexpr std::array<std::string_view, 5> fields = {
+            "x * x + y * y + z * z - 1", "1 / x - log(y) + z", "sin(9 * x) * floor(y) + abs(z)",
+            "x <", "atan2(y, x) ** z"};
+        const std::string_view field = fields[input_.below(fields.size())];
+        return crt_implicit_create(field.data(), field.size(), b.data(), c.data(), out);
       }
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};

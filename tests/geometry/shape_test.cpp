@@ -51,7 +51,7 @@ TEST_CASE(
   const HeightField field{.heights = make_height_grid({0, 0.5, 1, 0}, 2, 2)};
   const Primitive all[] = {Sphere{}, Box{},     Plane{},    HalfPlane{}, Cylinder{},
                            Cone{},   Torus{},   Disc{},     Triangle{},  Capsule{},
-                           mesh,     extrusion, revolution, field};
+                           mesh,     extrusion, revolution, field,       Implicit{}};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
@@ -124,6 +124,9 @@ TEST_CASE("every field of every primitive is checked") {
   const Vec3 next(std::nextafter(1.0, 2.0), 1, 1);
   CHECK(argument(HeightField{.heights = grid, .corner_a = {1, 0, 0}, .corner_b = next}) ==
         "corner_b");
+  CHECK(argument(Implicit{.lower = bad}) == "lower");
+  CHECK(argument(Implicit{.upper = bad}) == "upper");
+  CHECK(argument(Implicit{.upper = {1, -1, 1}}) == "upper");
   CHECK(argument(Torus{.center = bad}) == "center");
   CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
   CHECK(argument(Torus{.radius = 0}) == "radius");

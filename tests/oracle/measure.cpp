@@ -331,7 +331,9 @@ std::string description(const TestRay& ray) {
       const auto& [a, b, c, d] = corners.tops;
       return fmt::format("height field {} {} tops {:a} {:a} {:a} {:a}", text(corners.lower),
                          text(corners.upper), a.y, b.y, c.y, d.y);
-    } else if constexpr (std::is_same_v<P, Mesh>)
+    } else if constexpr (std::is_same_v<P, Implicit>)
+      return std::string("implicit solid");
+    else if constexpr (std::is_same_v<P, Mesh>)
       return fmt::format("mesh of {} triangles", p.triangles->size());
     else
       return fmt::format("triangle {} {} {}", text(p.a), text(p.b), text(p.c));

@@ -7,7 +7,7 @@
 
 namespace crt::core {
 
-enum class SurfaceKind : std::uint8_t { plane, sphere, cylinder, cone, torus };
+enum class SurfaceKind : std::uint8_t { plane, sphere, cylinder, cone, torus, field };
 
 /// A Surface is the whole surface that a face is a piece of, in object space. Equal surfaces of one
 /// kind have equal parameters, but for planes. One plane has many positions and normals, so planes
@@ -19,7 +19,7 @@ struct Surface {
   /// This is a plane's normal out of the face, of any length, or an axis (see canonical_axis), or 0
   /// where there is none.
   Vec3 direction{0, 0, 0};
-  std::array<double, 2> sizes{0, 0};  ///< radii, thickness, or slope
+  std::array<double, 2> sizes{0, 0};  ///< radii, thickness, slope, or what tells fields apart
   /// The face's normal points into what the round surface encloses. A plane has its `direction`.
   bool is_hollow = false;
 };
