@@ -713,6 +713,16 @@ CRT_API crt_status crt_quadric_create(const double squares[3], const double prod
                                       const double linear[3], double constant, crt_entity** out);
 
 /**
+ * Makes an implicit solid: all points from `lower` to `upper` at which a field f(x, y, z) is at most
+ * 0. The text is an expression of the CRT language, in which x, y and z are the coordinates, such as
+ * "x ** 2 + y ** 2 + z ** 2 - 1". `upper` is above `lower` by at least 1e-100 in every coordinate.
+ * What is wrong with the text is CRT_ERROR_SCRIPT, and the message says where. Since 1.1.
+ * @param length  in bytes
+ */
+CRT_API crt_status crt_implicit_create(const char* field, size_t length, const double lower[3],
+                                       const double upper[3], crt_entity** out);
+
+/**
  * Makes the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No
  * ray meets it. In combinations it behaves as the empty set. No transform, material or id changes
  * it.
@@ -872,7 +882,9 @@ typedef struct crt_prepare_options {
   /** This is the most primitives that the scene may have. With more, preparing ends with
    * CRT_ERROR_LIMIT before it takes any memory. 0 means as many as the memory of the machine (or
    * container) may be enough for. It counts 1350 bytes for each, or 2700 in the exact tier, as the
-   * largest primitives take; lone spheres take 600. There can never be more than 33554432. */
+   * largest primitives take; lone spheres take 600. There can never be more than 33554432. A solid of
+   * several primitives, or a mesh, counts once if one entity is placed 16 times or more, and each of
+   * its uses as one primitive of 512 bytes. */
   uint64_t max_primitives;
 } crt_prepare_options;
 
@@ -1225,6 +1237,9 @@ typedef struct crt_render_stats {
   double cutoff_mean;  /**< light that a pixel may have lost by cutting off paths, if all light were
                           white */
   double cutoff_max;
+  /* From here on since 1.1. */
+  uint64_t undecided; /**< how often interval arithmetic left open what a ray crosses of an implicit
+                           solid, so that the signs on both sides decided it */
 } crt_render_stats;
 
 /** @} */
@@ -1464,7 +1479,8 @@ typedef struct crt_hit_part {
    * `from`, 2 at `to`. Extrusions have 0 and 1 for the lower and the upper end, and revolutions for
    * where the turn begins and ends. Both have further numbers for their sides. Height fields have 0
    * and 1 across x at the lower and the upper end, 2 and 3 across z, 4 for the bottom, and further
-   * numbers for the triangles of their cells. Meshes have the place of the triangle among those
+   * numbers for the triangles of their cells. Implicit solids have 0 for where the field is 0, and
+   * the faces of their box from 1 on. Meshes have the place of the triangle among those
    * with an area. All others have 0.
    */
   uint32_t face;

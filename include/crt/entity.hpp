@@ -21,7 +21,8 @@ concept PrimitiveShape = !std::same_as<Shape, Primitive> && !std::same_as<Shape,
 
 /// An Entity is something in a scene: a primitive, or several combined by constructive solid
 /// geometry, placed by transforms. It is an immutable value: copies share, and any thread may use
-/// it. Combining and placing are O(1) and give new entities.
+/// it. Combining and placing are O(1) and give new entities. Placing copies of one entity a million
+/// times is cheap: what they share is prepared once (docs/architecture.md, Preparing).
 class Entity {
  public:
   /// Takes any primitive. Throws Error (invalid_argument) naming the field that is out of range.

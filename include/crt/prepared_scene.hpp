@@ -59,7 +59,9 @@ struct PrepareOptions {
   /// This is the most primitives that the scene may have. With more, prepare() throws Error (limit)
   /// before it takes any memory. 0 means as many as the memory of the machine (or container) may be
   /// enough for. It counts 1350 bytes for each, or 2700 in the exact tier, as the largest
-  /// primitives take; lone spheres take 600. There can never be more than 33554432.
+  /// primitives take; lone spheres take 600. There can never be more than 33554432. A solid of
+  /// several primitives, or a mesh, that is placed often counts once, and each of its uses as one
+  /// primitive of 512 bytes. That is if copies of one Entity are placed, 16 or more.
   std::uint64_t max_primitives = 0;
 };
 

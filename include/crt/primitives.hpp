@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <crt/field.hpp>
 #include <crt/material.hpp>
 #include <crt/vec.hpp>
 #include <cstdint>
@@ -254,8 +255,22 @@ struct Quadric {
   std::optional<SharedMaterial> material{};
 };
 
+/// An Implicit has all points between two corners of a box at which a field is at most 0. The
+/// corners differ by at least 1e-100 in every coordinate. Where the field has no value is outside.
+/// Where a line enters and leaves is proved by interval arithmetic. What that cannot decide within
+/// a limit on the work, such as whether a line that grazes enters, is decided by the signs on both
+/// sides of the place. RenderStats::undecided counts such rays. (u, v) are those of the box: they
+/// run along x and y, in [0, 1], and on the faces of the box as a Box has them.
+struct Implicit {
+  Field field{};
+  Vec3 lower{-1, -1, -1};
+  Vec3 upper{1, 1, 1};
+  std::optional<SharedMaterial> material{};
+};
+
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle,
-                               Capsule, Mesh, Extrusion, Revolution, HeightField, Quadric>;
+                               Capsule, Mesh, Extrusion, Revolution, HeightField, Quadric,
+                               Implicit>;
 
 }  // namespace crt

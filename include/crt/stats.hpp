@@ -42,6 +42,10 @@ struct RenderStats {
   /// with Precision::standard.
   std::uint64_t escalations = 0;
 
+  /// Counts how often something of what a ray crosses of an Implicit could not be decided by
+  /// interval arithmetic, within the limit on the work. The signs on both sides decided it then.
+  std::uint64_t undecided = 0;
+
   /// Count how often the solids around a point were looked up, and media entered or left.
   std::uint64_t media_lookups = 0;
   std::uint64_t media_changes = 0;

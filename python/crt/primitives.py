@@ -28,6 +28,7 @@ __all__ = [
     "Extrusion",
     "HalfPlane",
     "HeightField",
+    "Implicit",
     "Plane",
     "Quadric",
     "Revolution",
@@ -416,6 +417,32 @@ class Quadric(_Primitive):
         shown: dict[str, Any] = {key: tuple(v) for key, v in zip(names, vectors, strict=True)}
         shown["constant"] = number
         self._create("crt_quadric_create", material, id, shown, *vectors, number)
+
+
+class Implicit(_Primitive):
+    """An Implicit is all points between the lower and the upper corner of a box at which a field is
+    at most 0. The field is an expression of the CRT language, in which x, y and z are the
+    coordinates: "x ** 2 + y ** 2 + z ** 2 - 1"."""
+
+    field = _Given[str]()
+    lower = _Given[Vector]()
+    upper = _Given[Vector]()
+
+    def __init__(
+        self,
+        field: str,
+        lower: Point,
+        upper: Point,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        if not isinstance(field, str):
+            raise _arguments.refusal("Implicit: field", "a str", field)
+        a, b = self._vectors(lower=lower, upper=upper)
+        text = field.encode()
+        shown = {"field": field, "lower": tuple(a), "upper": tuple(b)}
+        self._create("crt_implicit_create", material, id, shown, text, len(text), a, b)
 
 
 class Torus(_Primitive):

@@ -155,6 +155,16 @@ crt_status crt_quadric_create(const double squares[3], const double products[3],
   });
 }
 
+crt_status crt_implicit_create(const char* field, size_t length, const double lower[3],
+                               const double upper[3], crt_entity** out) {
+  return create(out, [&] {
+    require(field, "field");
+    return crt::Implicit{.field = crt::parse_field({field, length}),
+                         .lower = to_vec3(lower, "lower"),
+                         .upper = to_vec3(upper, "upper")};
+  });
+}
+
 crt_status crt_empty_create(crt_entity** out) {
   return create(out, [] { return crt::empty_entity(); });
 }

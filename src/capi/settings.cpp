@@ -127,6 +127,7 @@ crt_render_stats to_c(const RenderStats& stats) {
   out.unseen_share = stats.unseen_share;
   out.cutoff_mean = stats.cutoff_mean;
   out.cutoff_max = stats.cutoff_max;
+  out.undecided = stats.undecided;
   return out;
 }
 

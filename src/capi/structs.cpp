@@ -206,7 +206,8 @@ std::span<const std::size_t> field_ends<crt_render_stats>() {
                                       CRT_END(S, pixels_unresolved),
                                       CRT_END(S, unseen_share),
                                       CRT_END(S, cutoff_mean),
-                                      CRT_END(S, cutoff_max)};
+                                      CRT_END(S, cutoff_max),
+                                      CRT_END(S, undecided)};
   return ends;
 }
 

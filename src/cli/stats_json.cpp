@@ -203,6 +203,7 @@ std::string counters_json(const RenderStats& stats, int level) {
       .add("intersection_tests", stats.intersection_tests)
       .add("interval_events", stats.interval_events)
       .add("escalations", stats.escalations)
+      .add("undecided", stats.undecided)
       .add("media_lookups", stats.media_lookups)
       .add("media_changes", stats.media_changes)
       .add("pattern_lookups", stats.pattern_lookups)

@@ -10,6 +10,7 @@
 
 #include "crt/curves.hpp"
 #include "lang/failure.hpp"
+#include "lang/fields.hpp"
 #include "lang/suggestion.hpp"
 
 namespace crt::lang {
@@ -326,6 +327,14 @@ void convert(const Given& given, Context& context, HeightRows& field) {
   // One that has too many rows has too many heights in memory already.
   field.grid = make_height_grid(std::move(heights), static_cast<std::uint32_t>(columns),
                                 static_cast<std::uint32_t>(rows.size()));
+}
+
+void convert(const Given& given, Context&, Field& field) {
+  double storage = 0;
+  if (const double* number = as_float(given.value, storage)) require_finite(given, *number);
+  const std::optional<Field> value = as_field(given.value);
+  if (!value) wrong_type(given);
+  field = *value;
 }
 
 void convert(const Given& given, Context&, Projection& field) {

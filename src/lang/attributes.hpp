@@ -12,6 +12,7 @@
 
 #include "crt/background.hpp"
 #include "crt/camera.hpp"
+#include "crt/field.hpp"
 #include "crt/light.hpp"
 #include "crt/material.hpp"
 #include "crt/primitives.hpp"
@@ -57,6 +58,7 @@ void convert(const Given& given, Context& context, std::shared_ptr<const Font>& 
 void convert(const Given& given, Context& context, TextAlignment& field);
 void convert(const Given& given, Context& context, HeightImage& field);
 void convert(const Given& given, Context& context, HeightRows& field);
+void convert(const Given& given, Context& context, Field& field);
 void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
@@ -134,6 +136,11 @@ constexpr std::string_view type_text(const HeightImage*) {
 }
 constexpr std::string_view type_text(const HeightRows*) {
   return "List of Lists";
+}
+/// In the value of such an attribute x, y and z are coordinates.
+inline constexpr std::string_view field_type = "Field";
+constexpr std::string_view type_text(const Field*) {
+  return field_type;
 }
 constexpr std::string_view type_text(const Projection*) {
   return "String";

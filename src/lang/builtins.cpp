@@ -1,5 +1,6 @@
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
+#include "lang/fields.hpp"
 
 #include <fmt/format.h>
 
@@ -29,6 +30,16 @@ bool Arguments::all_integers() const {
   return std::all_of(values_.begin(), values_.end(), [](const Value& value) {
     return std::holds_alternative<std::int64_t>(value);
   });
+}
+
+bool Arguments::any_field() const {
+  return std::any_of(values_.begin(), values_.end(), is_field);
+}
+
+Field Arguments::field(std::size_t i) const {
+  const std::optional<Field> field = as_field(values_[i]);
+  if (!field) wrong_type(i, "a Field or a finite number");
+  return *field;
 }
 
 std::span<const Builtin> builtins() {

@@ -36,6 +36,9 @@ class Arguments {
   double number(std::size_t i) const;
   Vec3 vector(std::size_t i) const;
   bool all_integers() const;
+  /// Returns whether any is a field, and so the result is one.
+  bool any_field() const;
+  Field field(std::size_t i) const;
 
   [[noreturn]] void wrong_type(std::size_t i, std::string_view wanted) const;
 

@@ -8,14 +8,26 @@
 
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
+#include "lang/fields.hpp"
 #include "lang/random.hpp"
 
 namespace crt::lang {
 
 namespace {
 
-template <double (*function)(double)>
+using FieldFunction = Field (*)(const Field&);
+using FieldFunctionOfTwo = Field (*)(const Field&, const Field&);
+
+/// Returns a function of the first argument, which is a field.
+template <FieldFunction function>
+Value of_field(const Arguments& arguments) {
+  return make_field(arguments.context, arguments.call,
+                    [&] { return function(arguments.field(0)); });
+}
+
+template <double (*function)(double), FieldFunction field_function>
 Value of_number(const Arguments& arguments) {
+  if (arguments.any_field()) return of_field<field_function>(arguments);
   return function(arguments.number(0));
 }
 
@@ -58,8 +70,9 @@ double rounded(double x) {
 }
 
 /// Computes floor, ceil or round, which give Integers so that they can count and index.
-template <double (*function)(double)>
+template <double (*function)(double), FieldFunction field_function>
 Value to_integer(const Arguments& arguments) {
+  if (arguments.any_field()) return of_field<field_function>(arguments);
   if (std::holds_alternative<std::int64_t>(arguments[0])) return arguments[0];
   const double whole = function(arguments.number(0));
   constexpr double beyond = 0x1p63;
@@ -69,6 +82,7 @@ Value to_integer(const Arguments& arguments) {
 }
 
 Value absolute(const Arguments& arguments) {
+  if (arguments.any_field()) return of_field<crt::abs>(arguments);
   if (const auto* integer = std::get_if<std::int64_t>(&arguments[0])) {
     if (*integer == std::numeric_limits<std::int64_t>::min())
       fail(arguments.span(0), "the result does not fit into a 64-bit Integer");
@@ -77,17 +91,32 @@ Value absolute(const Arguments& arguments) {
   return std::abs(arguments.number(0));
 }
 
+/// Combines fields one after the other.
+template <FieldFunctionOfTwo function>
+Value of_fields(const Arguments& arguments) {
+  Value result = arguments.field(0);
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    result = make_field(arguments.context, arguments.call, [&] {
+      return function(std::get<Field>(result), arguments.field(i));
+    });
+  }
+  return result;
+}
+
 Value arc_tangent_of_two(const Arguments& arguments) {
+  if (arguments.any_field()) return of_fields<crt::atan2>(arguments);
   return std::atan2(arguments.number(0), arguments.number(1));
 }
 
 Value power(const Arguments& arguments) {
+  if (arguments.any_field()) return of_fields<crt::pow>(arguments);
   return std::pow(arguments.number(0), arguments.number(1));
 }
 
 /// Returns the least or greatest argument: an Integer if all are Integers, else a Float.
 template <bool want_greatest>
 Value extreme(const Arguments& arguments) {
+  if (arguments.any_field()) return of_fields<want_greatest ? crt::max : crt::min>(arguments);
   const bool integers = arguments.all_integers();
   Value best = integers ? arguments[0] : arguments.number(0);
   for (std::size_t i = 1; i < arguments.size(); ++i) {
@@ -105,6 +134,11 @@ Value extreme(const Arguments& arguments) {
 }
 
 Value clamp(const Arguments& arguments) {
+  if (arguments.any_field()) {
+    return make_field(arguments.context, arguments.call, [&] {
+      return min(max(arguments.field(0), arguments.field(1)), arguments.field(2));
+    });
+  }
   const double low = arguments.number(1);
   const double high = arguments.number(2);
   const double x = arguments.number(0);
@@ -142,23 +176,23 @@ Value noise(const Arguments& arguments) {
 }
 
 constexpr std::array numbers_table = {
-    Builtin{"sin", "sin(x)", 1, 1, of_number<sine>},
-    Builtin{"cos", "cos(x)", 1, 1, of_number<cosine>},
-    Builtin{"tan", "tan(x)", 1, 1, of_number<tangent>},
-    Builtin{"asin", "asin(x)", 1, 1, of_number<arc_sine>},
-    Builtin{"acos", "acos(x)", 1, 1, of_number<arc_cosine>},
-    Builtin{"atan", "atan(x)", 1, 1, of_number<arc_tangent>},
+    Builtin{"sin", "sin(x)", 1, 1, of_number<sine, crt::sin>},
+    Builtin{"cos", "cos(x)", 1, 1, of_number<cosine, crt::cos>},
+    Builtin{"tan", "tan(x)", 1, 1, of_number<tangent, crt::tan>},
+    Builtin{"asin", "asin(x)", 1, 1, of_number<arc_sine, crt::asin>},
+    Builtin{"acos", "acos(x)", 1, 1, of_number<arc_cosine, crt::acos>},
+    Builtin{"atan", "atan(x)", 1, 1, of_number<arc_tangent, crt::atan>},
     Builtin{"atan2", "atan2(y, x)", 2, 2, arc_tangent_of_two},
-    Builtin{"sqrt", "sqrt(x)", 1, 1, of_number<square_root>},
+    Builtin{"sqrt", "sqrt(x)", 1, 1, of_number<square_root, crt::sqrt>},
     Builtin{"pow", "pow(base, exponent)", 2, 2, power},
-    Builtin{"exp", "exp(x)", 1, 1, of_number<exponential>},
-    Builtin{"log", "log(x)", 1, 1, of_number<logarithm>},
+    Builtin{"exp", "exp(x)", 1, 1, of_number<exponential, crt::exp>},
+    Builtin{"log", "log(x)", 1, 1, of_number<logarithm, crt::log>},
     Builtin{"abs", "abs(x)", 1, 1, absolute},
     Builtin{"min", "min(a, b, ...)", 1, any_number, extreme<false>},
     Builtin{"max", "max(a, b, ...)", 1, any_number, extreme<true>},
-    Builtin{"floor", "floor(x)", 1, 1, to_integer<floor_of>},
-    Builtin{"ceil", "ceil(x)", 1, 1, to_integer<ceiling_of>},
-    Builtin{"round", "round(x)", 1, 1, to_integer<rounded>},
+    Builtin{"floor", "floor(x)", 1, 1, to_integer<floor_of, crt::floor>},
+    Builtin{"ceil", "ceil(x)", 1, 1, to_integer<ceiling_of, crt::ceil>},
+    Builtin{"round", "round(x)", 1, 1, to_integer<rounded, crt::round>},
     Builtin{"clamp", "clamp(x, low, high)", 3, 3, clamp},
     Builtin{"rand", "rand(low, high)", 0, 2, random_number},
     Builtin{"noise", "noise(x, y, z)", 1, 3, noise},

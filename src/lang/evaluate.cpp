@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "lang/attributes.hpp"
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
@@ -34,14 +35,26 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   std::vector<Given> given;
   given.reserve(attributes.size());
   for (const AttributeSyntax& attribute : attributes) {
-    Value value = evaluate(*attribute.value);
-    if (attribute.index == type.attributes.size()) continue;  // skipped, as the check has said
+    const bool is_known = attribute.index < type.attributes.size();
+    const bool is_field = is_known && type.attributes[attribute.index].type == field_type;
+    Value value = is_field ? evaluate_field(*attribute.value) : evaluate(*attribute.value);
+    if (!is_known) continue;  // skipped, as the check has said
     given.push_back({.type = &type.attributes[attribute.index],
                      .name_span = attribute.name.span,
                      .value_span = attribute.value->span,
                      .value = std::move(value)});
   }
   return given;
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_field(const Expression& expression) {
+  auto scope = std::make_shared<Scope>(Scope::Kind::border, scope_);
+  SymbolTable& symbols = context_.symbols;
+  scope->set(symbols.intern("x"), Field::x());
+  scope->set(symbols.intern("y"), Field::y());
+  scope->set(symbols.intern("z"), Field::z());
+  const Temporarily within(scope_, std::move(scope));
+  return evaluate(expression);
 }
 
 [[gnu::noinline]] Value Interpreter::evaluate_node(const ObjectLiteral& object, const Expression&) {

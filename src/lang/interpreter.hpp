@@ -41,6 +41,9 @@ class Interpreter {
   /// Returns the value of an expression in the top-level scope. Throws a Failure.
   Value evaluate(const Expression& expression);
 
+  /// Returns the value of an expression in which x, y and z are the coordinates of a field.
+  Value evaluate_field(const Expression& expression);
+
   /// Sets what `import` does, which needs access to files.
   void set_importer(std::function<void(const Import&)> importer) {
     importer_ = std::move(importer);

@@ -134,6 +134,9 @@ std::vector<ObjectType> entities() {
                           attribute("material", &MeshOfFile::material, "as the file has it")},
                          finish_mesh),
       text_object(),
+      entity<Implicit>("Implicit",
+                       {required("field", &Implicit::field), required("lower", &Implicit::lower),
+                        required("upper", &Implicit::upper)}),
   };
 }
 

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "lang/failure.hpp"
+#include "lang/fields.hpp"
 #include "lang/utf8.hpp"
 
 namespace crt::lang {
@@ -45,8 +47,7 @@ const char* sign(BinaryOperator op) {
 }
 
 [[noreturn]] void wrong_types(BinaryOperator op, Span span, const Value& left, const Value& right) {
-  double storage = 0;
-  const bool are_numbers = as_float(left, storage) && as_float(right, storage);
+  const bool are_numbers = as_field(left) && as_field(right);
   const char* hint = op == BinaryOperator::intersect && are_numbers ? "; a power is a ** b" : "";
   fail(span, "'{}' does not take {} and {}{}", sign(op), left, right, hint);
 }
@@ -200,6 +201,30 @@ bool scale_by_number(BinaryOperator op, const Value& left, const Value& right, V
   return true;
 }
 
+/// Computes with a field and another one or a number.
+Value fields(Context& context, BinaryOperator op, Span span, const Value& left,
+             const Value& right) {
+  const std::optional<Field> a = as_field(left);
+  const std::optional<Field> b = as_field(right);
+  if (!a || !b) wrong_types(op, span, left, right);
+  return make_field(context, span, [&]() -> Field {
+    switch (op) {
+      case BinaryOperator::power:
+        return pow(*a, *b);
+      case BinaryOperator::add:
+        return *a + *b;
+      case BinaryOperator::subtract:
+        return *a - *b;
+      case BinaryOperator::multiply:
+        return *a * *b;
+      case BinaryOperator::divide:
+        return *a / *b;
+      default:
+        wrong_types(op, span, left, right);
+    }
+  });
+}
+
 Value entities(Context& context, BinaryOperator op, Span span, const Entity& a, const Entity& b) {
   context.count_made(span);
   try {
@@ -276,6 +301,7 @@ Value other_types(Context& context, BinaryOperator op, Span span, const Value& l
                   const Value& right) {
   if (std::holds_alternative<String>(left) || std::holds_alternative<String>(right))
     return with_strings(context, op, span, left, right);
+  if (is_field(left) || is_field(right)) return fields(context, op, span, left, right);
   if (left.index() == right.index()) {
     if (const auto* entity = std::get_if<Entity>(&left))
       return entities(context, op, span, *entity, std::get<Entity>(right));
@@ -297,6 +323,8 @@ Value other_types(Context& context, BinaryOperator op, Span span, const Value& l
 
 Value binary(Context& context, BinaryOperator op, Span op_span, const Value& left,
              const Value& right) {
+  // Whether fields are equal depends on where.
+  if (is_field(left) || is_field(right)) return other_types(context, op, op_span, left, right);
   if (op == BinaryOperator::equal) return equal(context, op_span, left, right);
   if (op == BinaryOperator::not_equal) return !equal(context, op_span, left, right);
   const auto* a = std::get_if<std::int64_t>(&left);
@@ -320,6 +348,7 @@ Value unary(UnaryOperator op, Span span, const Value& operand) {
     return minus ? integers(BinaryOperator::subtract, span, 0, *integer) : operand;
   if (const auto* number = std::get_if<double>(&operand)) return minus ? -*number : *number;
   if (const auto* vector = std::get_if<Vec3>(&operand)) return minus ? -*vector : *vector;
+  if (const auto* field = std::get_if<Field>(&operand)) return minus ? -*field : *field;
   fail(span, "a sign stands before a number or a Vec3, not {}", operand);
 }
 

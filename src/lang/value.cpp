@@ -11,7 +11,7 @@ std::string_view type_name(const Value& value) {
   constexpr std::array<std::string_view, std::variant_size_v<Value>> names = {
       "nothing",  "unknown value", "Integer", "Float",  "Boolean",   "Vec3",
       "Color",    "String",        "List",    "Macro",  "Macro",     "Entity",
-      "Material", "Pattern",       "Light",   "Camera", "Background"};
+      "Material", "Pattern",       "Light",   "Camera", "Background", "Field"};
   return names[value.index()];
 }
 

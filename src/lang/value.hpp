@@ -13,6 +13,7 @@
 #include "crt/background.hpp"
 #include "crt/camera.hpp"
 #include "crt/entity.hpp"
+#include "crt/field.hpp"
 #include "crt/light.hpp"
 #include "crt/material.hpp"
 
@@ -40,7 +41,7 @@ using Macro = std::shared_ptr<const MacroValue>;
 using Value = std::variant<Nothing, Unknown, std::int64_t, double, bool, Vec3, Color, String, List,
                            Macro, const Builtin*, Entity, SharedMaterial,
                            std::shared_ptr<const Pattern>, std::shared_ptr<const Light>,
-                           std::shared_ptr<const Camera>, std::shared_ptr<const Background>>;
+                           std::shared_ptr<const Camera>, std::shared_ptr<const Background>, Field>;
 
 /// A Charge is memory that a value holds. It is given back to its counter when the value goes.
 class Charge {

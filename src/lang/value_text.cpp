@@ -85,6 +85,7 @@ struct Identity {
   const void* operator()(const Builtin* builtin) const { return builtin; }
   const void* operator()(const Entity& entity) const { return entity.shared_node().get(); }
   const void* operator()(const SharedMaterial& material) const { return &*material; }
+  const void* operator()(const Field& field) const { return &field.node(); }
   template <class Pointee>
   const void* operator()(const std::shared_ptr<Pointee>& pointer) const {
     return pointer.get();

@@ -220,7 +220,7 @@ AT(crt_prepare_options, poll, 8);
 AT(crt_prepare_options, poll_user, 16);
 AT(crt_prepare_options, max_primitives, 24);
 
-SIZE(crt_render_stats, 264);
+SIZE(crt_render_stats, 272);
 AT(crt_render_stats, struct_size, 0);
 AT(crt_render_stats, threads, 4);
 AT(crt_render_stats, pixels, 8);
@@ -256,6 +256,7 @@ AT(crt_render_stats, pixels_unresolved, 232);
 AT(crt_render_stats, unseen_share, 240);
 AT(crt_render_stats, cutoff_mean, 248);
 AT(crt_render_stats, cutoff_max, 256);
+AT(crt_render_stats, undecided, 264);
 
 SIZE(crt_write_options, 12);
 AT(crt_write_options, struct_size, 0);

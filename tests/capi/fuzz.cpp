@@ -96,7 +96,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(14);
+  const std::uint32_t kind = input_.below(16);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -147,6 +147,13 @@ void Session::make_primitive() {
       }
       case 13:
         return crt_quadric_create(a.data(), b.data(), c.data(), r, out);
+      case 14: {
+        constexpr std::array<std::string_view, 5> fields = {
+            "x * x + y * y + z * z - 1", "1 / x - log(y) + z", "sin(9 * x) * floor(y) + abs(z)",
+            "x <", "atan2(y, x) ** z"};
+        const std::string_view field = fields[input_.below(fields.size())];
+        return crt_implicit_create(field.data(), field.size(), b.data(), c.data(), out);
+      }
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};

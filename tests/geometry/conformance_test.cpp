@@ -29,6 +29,7 @@
 #include "geometry/meshes.hpp"
 #include "geometry/oracle.hpp"
 #include "geometry/profiles.hpp"
+#include "geometry/random_fields.hpp"
 #include "geometry/turned_profiles.hpp"
 
 using namespace crt;
@@ -72,6 +73,15 @@ void set_at_random(HeightField& field, std::size_t /*bytes*/, Random& random) {
   for (int axis = 0; axis < 3; ++axis) {
     field.corner_a[axis] = random_field(random);
     field.corner_b[axis] = random_field(random);
+  }
+}
+
+/// Makes a field without poles, as of others the normal may be any.
+void set_at_random(Implicit& implicit, std::size_t /*bytes*/, Random& random) {
+  implicit.field = random_field_of(random, 3, false);
+  for (int axis = 0; axis < 3; ++axis) {
+    implicit.lower[axis] = random_field(random);
+    implicit.upper[axis] = random_field(random);
   }
 }
 

@@ -1,6 +1,7 @@
 // The oracle needs quadruple precision, random numbers and scaled primitives.
 #include <cmath>
 
+#include "core/geometry/implicit/field_node.hpp"
 #include "geometry/oracle.hpp"
 #include "geometry/scaled_mesh.hpp"
 #include "geometry/scaled_profile.hpp"
@@ -141,6 +142,27 @@ Quadric times(Quadric s, double k) {
   s.products /= k;
   s.products /= k;
   s.linear /= k;
+  return s;
+}
+
+/// Returns f(p / k), which has no rounding for powers of two.
+Field with_scaled_argument(const core::FieldNode& node, double k) {
+  using core::FieldOperation;
+  const bool is_coordinate = node.operation == FieldOperation::x ||
+                             node.operation == FieldOperation::y ||
+                             node.operation == FieldOperation::z;
+  if (is_coordinate) return core::FieldNode::make(node.operation) * (1 / k);
+  if (!node.a) return core::FieldNode::make(node.operation, node.number);
+  const Field a = with_scaled_argument(*node.a, k);
+  if (!node.b) return core::FieldNode::make(node.operation, node.number, &a);
+  const Field b = with_scaled_argument(*node.b, k);
+  return core::FieldNode::make(node.operation, node.number, &a, &b);
+}
+
+Implicit times(Implicit s, double k) {
+  s.field = with_scaled_argument(s.field.node(), k);
+  s.lower *= k;
+  s.upper *= k;
   return s;
 }
 Triangle times(Triangle s, double k) {

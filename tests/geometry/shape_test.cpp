@@ -51,7 +51,7 @@ TEST_CASE(
   const HeightField field{.heights = make_height_grid({0, 0.5, 1, 0}, 2, 2)};
   const Primitive all[] = {Sphere{}, Box{},     Plane{},    HalfPlane{}, Cylinder{},
                            Cone{},   Torus{},   Disc{},     Triangle{},  Capsule{},
-                           mesh,     extrusion, revolution, field,       Quadric{}};
+                           mesh,     extrusion, revolution, field,       Quadric{}, Implicit{}};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
@@ -128,6 +128,9 @@ TEST_CASE("every field of every primitive is checked") {
   CHECK(argument(Quadric{.products = {0, inf, 0}}) == "products");
   CHECK(argument(Quadric{.linear = bad}) == "linear");
   CHECK(argument(Quadric{.constant = -inf}) == "constant");
+  CHECK(argument(Implicit{.lower = bad}) == "lower");
+  CHECK(argument(Implicit{.upper = bad}) == "upper");
+  CHECK(argument(Implicit{.upper = {1, -1, 1}}) == "upper");
   CHECK(argument(Torus{.center = bad}) == "center");
   CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
   CHECK(argument(Torus{.radius = 0}) == "radius");

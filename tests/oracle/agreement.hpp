@@ -10,6 +10,7 @@
 #include "crt/prepared_scene.hpp"
 #include "crt/query.hpp"
 #include "crt/settings.hpp"
+#include "oracle/ray_maker.hpp"
 
 namespace crt::test {
 
@@ -33,7 +34,7 @@ void compare_queries(const PreparedScene& scene, const std::string& subject,
 
 /// The kinds of subjects are each primitive, by its place in the variant `Primitive`, CSG of two or
 /// three solids, and crowds of disjoint solids.
-inline constexpr std::size_t agreement_kinds = std::variant_size_v<Primitive> + 2;
+inline constexpr std::size_t agreement_kinds = primitive_kinds + 2;
 std::string name_of_agreement(std::size_t kind);
 
 /// Compares queries of random subjects, each with some rays of every kind that there is, and with

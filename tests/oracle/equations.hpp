@@ -266,6 +266,11 @@ Equations<Number> equations(const Revolution& revolution, const ExactLine<Number
   return result;
 }
 
+template <class Number>
+Equations<Number> equations(const Implicit&, const ExactLine<Number>&) {
+  has_no_oracle();
+}
+
 // A height field has the equations of its sides, of its bottom and of two triangles on top.
 template <class Number>
 Equations<Number> equations(const HeightField& field, const ExactLine<Number>& line) {

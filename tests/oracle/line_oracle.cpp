@@ -110,6 +110,11 @@ double gradient(const Revolution& revolution, std::size_t which, const ExactLine
 }
 
 template <class Number>
+double gradient(const Implicit&, std::size_t, const ExactLine<Number>&, const Number&) {
+  has_no_oracle();
+}
+
+template <class Number>
 double gradient(const HeightField& field, std::size_t which, const ExactLine<Number>&,
                 const Number&) {
   constexpr std::size_t first_top = 5;

@@ -9,6 +9,7 @@
 #include "crt/query.hpp"
 #include "geometry/scaled_mesh.hpp"
 #include "geometry/scaled_profile.hpp"
+#include "oracle/number_vec.hpp"
 #include "oracle/measure.hpp"
 #include "oracle/prepared_tree.hpp"
 
@@ -54,6 +55,8 @@ Primitive scaled(Primitive primitive, double factor) {
           p.linear /= factor;
         } else if constexpr (std::is_same_v<P, Mesh>) {
           p = scaled_mesh(p, factor);
+        } else if constexpr (std::is_same_v<P, Implicit>) {
+          has_no_oracle();
         } else {
           p.a *= factor;
           p.b *= factor;

@@ -104,6 +104,10 @@ bool meet(const Mesh& mesh, const Vec3& o, const Vec3& d, core::CrossingList& ou
   return false;
 }
 
+bool meet(const Implicit&, const Vec3&, const Vec3&, core::CrossingList&) {
+  has_no_oracle();
+}
+
 bool meet(const HeightField& field, const Vec3& o, const Vec3& d, core::CrossingList& out) {
   const TriangleList list = mesh_of(field);
   for (const auto& [a, b, c] : list.triangles) {

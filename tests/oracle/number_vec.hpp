@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -149,6 +150,11 @@ struct ArchedTriangle {
     return {along[1], -along[0], Number(0.0)};
   }
 };
+
+/// Is called for primitives that have no oracle, which none of these tests makes.
+[[noreturn]] inline void has_no_oracle() {
+  throw std::logic_error("this primitive has no oracle");
+}
 
 /// A CornerField is a height field of this oracle: four heights, which two triangles join.
 struct CornerField {

@@ -260,6 +260,16 @@ Vec3 edge(Counted& random, const Mesh& mesh) {
   return edge(random, any_triangle(random, mesh));
 }
 
+void make(Counted&, const Vec3&, double, Implicit&) {
+  has_no_oracle();
+}
+Spot spot(Counted&, const Implicit&) {
+  has_no_oracle();
+}
+Vec3 edge(Counted&, const Implicit&) {
+  has_no_oracle();
+}
+
 void make(Counted& random, const Vec3& at, double size, HeightField& field) {
   std::vector<double> heights(4);
   for (double& height : heights) height = random.uniform(0, 1);

@@ -135,6 +135,9 @@ double outside(const Revolution& revolution, const IntervalVec& p) {
                   is_more_than_half(revolution) ? std::min(first, last) : std::max(first, last));
 }
 
+double outside(const Implicit&, const IntervalVec&) {
+  has_no_oracle();
+}
 double outside(const HeightField& field, const IntervalVec& p) {
   const CornerField corners(field);
   double beside = (Interval(corners.lower.y) - p[1]).value();
@@ -226,6 +229,9 @@ Ball ball_of(const Revolution& revolution) {
                    std::abs(arc.center.x) + arc.radius)};
 }
 
+Ball ball_of(const Implicit&) {
+  has_no_oracle();
+}
 Ball ball_of(const HeightField& field) {
   const Vec3 offset = field.corner_b - field.corner_a;
   return {middle(field.corner_a, field.corner_b), glm::length(offset) / 2};

@@ -77,7 +77,11 @@ std::vector<Entity> one_of_each(double scale) {
           Disc{.center = v(0, 0.9, 0), .normal = {0.1, 1, 0.1}, .radius = 0.8 * scale},
           Triangle{.a = v(-1, -1, 0.5), .b = v(1, -1, 0.7), .c = v(0, 1, 0.2)},
           Plane{.normal = {0.1, 1, 0.2}, .position = v(0, -1, 0)},
-          HalfPlane{.normal = {1, 0.2, 0}, .position = v(-0.95, 0, 0), .direction = {0, 1, 0}}};
+          HalfPlane{.normal = {1, 0.2, 0}, .position = v(-0.95, 0, 0), .direction = {0, 1, 0}},
+          Implicit{.field = pow(Field::x() / scale, 2) + 2 * pow(Field::y() / scale, 2) +
+                            pow(Field::z() / scale, 3) - 0.4,
+                   .lower = v(-0.8, -0.7, -0.6),
+                   .upper = v(0.7, 0.8, 0.9)}};
 }
 
 }  // namespace

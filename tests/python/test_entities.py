@@ -44,6 +44,7 @@ class Primitives(unittest.TestCase):
             (crt.Quadric((1, 2, 3), (0, 0, 0), (-2, 0, 0), -3), [x - 1, x + 3]),
             (crt.Quadric((0, 0, 0), (0, 2, 0), (0, 1, -1), 0), []),
             (crt.Quadric((-1, 0, 0), (2, 0, 0), (0, 1, 0), 4), [x - 2, x + 2]),
+            (crt.Implicit("y ** 2 - 4", (-1, -1, -1), (1, 1, 1)), [x - 1, x + 1]),
             (crt.Disc((1, 0, 0), (1, 0, 0), 1), [x + 1]),
             (crt.Triangle((1, -1, -1), (1, 2, -1), (1, 0, 2)), [x + 1]),
             (crt.Mesh([[1, -1, -1], [1, 2, -1], [1, 0, 2]], [[0, 1, 2]]), [x + 1]),
@@ -109,6 +110,17 @@ class Primitives(unittest.TestCase):
         for wrong in ([[1]], [[1, 2], [0, 0]], [[0, 0], [0, float("nan")]], np.ones((0, 5))):
             with self.assertRaises(crt.Error):
                 crt.HeightField(wrong, (0, 0, 0), (1, 1, 1))
+
+    def test_a_field_that_is_wrong_says_where(self):
+        ball = crt.Implicit("x ** 2 + y ** 2 + z ** 2 - 1", (-1, -1, -1), (1, 1, 1))
+        self.assertTrue(ball.is_solid)
+        for wrong, place in (("x +", "1:4"), ("x + w", "1:5"), ("x <\n 1", "1:3")):
+            with self.assertRaisesRegex(crt.Error, place):
+                crt.Implicit(wrong, (-1, -1, -1), (1, 1, 1))
+        with self.assertRaises(TypeError):
+            crt.Implicit(5, (-1, -1, -1), (1, 1, 1))
+        with self.assertRaises(crt.Error):
+            crt.Implicit("x", (1, 1, 1), (-1, -1, -1))
 
     def test_a_mesh_file_is_read_and_a_broken_one_says_where(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -55,6 +55,10 @@ class CsgWorkspace {
   /// These are the steps of the ray that is followed now.
   RaySteps steps;
 
+  /// Returns CrossingList::undecided of all leaves.
+  std::uint64_t undecided() const { return leaf_crossings_.undecided; }
+  void forget_undecided() { leaf_crossings_.undecided = 0; }
+
  private:
   friend class CsgEvaluation;
 

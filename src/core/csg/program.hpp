@@ -78,7 +78,7 @@ struct Leaf {
       false;                  ///< its facets have materials of their own, which `material` precedes
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface
-  /// Of a prototype's leaf: whether it has the entity's id, and the part's, of each instance.
+  /// These say whether a prototype's leaf has the ids of each instance.
   bool takes_entity_id = false;
   bool takes_part_id = false;
 

@@ -12,6 +12,7 @@
 #include "core/geometry/extrusion/extrusion.hpp"
 #include "core/geometry/half_plane/half_plane.hpp"
 #include "core/geometry/height_field/height_field.hpp"
+#include "core/geometry/implicit/implicit.hpp"
 #include "core/geometry/mesh/mesh.hpp"
 #include "core/geometry/plane/plane.hpp"
 #include "core/geometry/quadric/quadric.hpp"

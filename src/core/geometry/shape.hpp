@@ -46,7 +46,10 @@ struct Crossing {
 
 /// A CrossingList has crossings along one ray. It is reused from ray to ray so that no ray
 /// allocates.
-using CrossingList = std::vector<Crossing>;
+struct CrossingList : std::vector<Crossing> {
+  /// Counts how often what a ray crosses of an Implicit could not be decided, since it was made.
+  std::uint64_t undecided = 0;
+};
 
 /// A SurfacePointOf is what is known of a point on a face, or of as many as a Real has lanes.
 template <class Real>

@@ -37,6 +37,12 @@ struct RayWorkspace {
   std::uint64_t interval_events() const { return csg.events; }
   /// Returns how many questions of the exact tier only exact arithmetic answered.
   std::uint64_t escalations() const { return leaf_escalations + csg.escalations; }
+  /// Returns how often a ray could not be decided along an Implicit.
+  std::uint64_t undecided() const { return crossings.undecided + csg.undecided(); }
+  void forget_undecided() {
+    crossings.undecided = 0;
+    csg.forget_undecided();
+  }
 };
 
 }  // namespace crt::core

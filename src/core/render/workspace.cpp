@@ -10,6 +10,7 @@ void add_counts(WorkspacePool::Counts& total, const Workspace& workspace) {
   total.stats.intersection_tests += workspace.rays.intersection_tests;
   total.stats.interval_events += workspace.rays.interval_events();
   total.stats.escalations += workspace.rays.escalations();
+  total.stats.undecided += workspace.rays.undecided();
   total.cutoff.add(workspace.cutoff);
 }
 
@@ -20,6 +21,7 @@ void move_counts(WorkspacePool::Counts& total, Workspace& workspace) {
   workspace.cutoff = {};
   RayWorkspace& rays = workspace.rays;
   rays.intersection_tests = rays.leaf_escalations = rays.csg.events = rays.csg.escalations = 0;
+  rays.forget_undecided();
 }
 
 }  // namespace

@@ -1,0 +1,102 @@
+// A Field is a function f(x, y, z), as an expression that never changes:
+//   const Field x = Field::x(), y = Field::y(), z = Field::z();
+//   const Field tube = pow(sqrt(x * x + y * y) - 1, 2) + z * z - 0.1;
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+namespace crt {
+
+namespace core {
+struct FieldNode;
+}  // namespace core
+
+/// A Field is a function of a point. Copies share what they are made of, so they cost nothing.
+///
+/// Numbers are taken as they are, and nothing is rounded until it is evaluated. Where a part of a
+/// field has no value, such as log(x) or sqrt(x) at x < 0, 1 / x at 0 and atan2(0, 0), the whole
+/// field has none. At most 1024 operations are within one another, and a field that a solid is made
+/// of has at most 4096, those that are equal counted once. Making a deeper one throws Error
+/// (invalid_argument), and so does a number that is not finite.
+class Field {
+ public:
+  /// Makes a field that is the same everywhere.
+  Field(double constant = 0);  // NOLINT(google-explicit-constructor): numbers are fields
+
+  /// These are the coordinates.
+  static Field x();
+  static Field y();
+  static Field z();
+
+  friend Field operator-(const Field& a);
+  friend Field operator+(const Field& a, const Field& b);
+  friend Field operator-(const Field& a, const Field& b);
+  friend Field operator*(const Field& a, const Field& b);
+  friend Field operator/(const Field& a, const Field& b);
+
+  /// Returns a to the power of a number. If that is not whole, a negative a has none. 0 has one
+  /// for exponents above 0. To the power of 0 it is 1.
+  friend Field pow(const Field& a, double exponent);
+  /// Returns exp(exponent * log(a)), which is defined for a > 0.
+  friend Field pow(const Field& a, const Field& exponent);
+  friend Field sqrt(const Field& a);
+  friend Field abs(const Field& a);
+  friend Field min(const Field& a, const Field& b);
+  friend Field max(const Field& a, const Field& b);
+  friend Field sin(const Field& a);
+  friend Field cos(const Field& a);
+  friend Field tan(const Field& a);
+  friend Field asin(const Field& a);
+  friend Field acos(const Field& a);
+  friend Field atan(const Field& a);
+  /// Returns the angle of (x, y) from the x axis, from -pi to pi.
+  friend Field atan2(const Field& y, const Field& x);
+  friend Field exp(const Field& a);
+  friend Field log(const Field& a);
+  friend Field floor(const Field& a);
+  friend Field ceil(const Field& a);
+  /// Returns the nearest whole number. Halves go away from 0.
+  friend Field round(const Field& a);
+
+  /// Returns what it is made of, which only the library knows.
+  const core::FieldNode& node() const { return *node_; }
+
+ private:
+  friend struct core::FieldNode;
+  explicit Field(std::shared_ptr<const core::FieldNode> node) : node_(std::move(node)) {}
+
+  std::shared_ptr<const core::FieldNode> node_;
+};
+
+// These are declared once more for those who name them.
+Field operator-(const Field& a);
+Field operator+(const Field& a, const Field& b);
+Field operator-(const Field& a, const Field& b);
+Field operator*(const Field& a, const Field& b);
+Field operator/(const Field& a, const Field& b);
+Field pow(const Field& a, double exponent);
+Field pow(const Field& a, const Field& exponent);
+Field sqrt(const Field& a);
+Field abs(const Field& a);
+Field min(const Field& a, const Field& b);
+Field max(const Field& a, const Field& b);
+Field sin(const Field& a);
+Field cos(const Field& a);
+Field tan(const Field& a);
+Field asin(const Field& a);
+Field acos(const Field& a);
+Field atan(const Field& a);
+Field atan2(const Field& y, const Field& x);
+Field exp(const Field& a);
+Field log(const Field& a);
+Field floor(const Field& a);
+Field ceil(const Field& a);
+Field round(const Field& a);
+
+/// Reads a field from an expression of the CRT language, in which x, y and z are the coordinates:
+/// "x ** 2 + y ** 2 + z ** 2 - 1". It sees the language's functions and constants, and `t` is 0.
+/// Throws Error (script) with what is wrong and where.
+Field parse_field(std::string_view text);
+
+}  // namespace crt
