@@ -713,10 +713,11 @@ CRT_API crt_status crt_quadric_create(const double squares[3], const double prod
                                       const double linear[3], double constant, crt_entity** out);
 
 /**
- * Makes an implicit solid: all points from `lower` to `upper` at which a field f(x, y, z) is at most
- * 0. The text is an expression of the CRT language, in which x, y and z are the coordinates, such as
- * "x ** 2 + y ** 2 + z ** 2 - 1". `upper` is above `lower` by at least 1e-100 in every coordinate.
- * What is wrong with the text is CRT_ERROR_SCRIPT, and the message says where. Since 1.1.
+ * Makes an implicit solid: all points from `lower` to `upper` at which a field f(x, y, z) is at
+ * most 0. The text is an expression of the CRT language, in which x, y and z are the coordinates,
+ * such as "x ** 2 + y ** 2 + z ** 2 - 1". `upper` is above `lower` by at least 1e-100 in every
+ * coordinate. What is wrong with the text is CRT_ERROR_SCRIPT, and the message says where. Since
+ * 1.1.
  * @param length  in bytes
  */
 CRT_API crt_status crt_implicit_create(const char* field, size_t length, const double lower[3],
@@ -882,9 +883,9 @@ typedef struct crt_prepare_options {
   /** This is the most primitives that the scene may have. With more, preparing ends with
    * CRT_ERROR_LIMIT before it takes any memory. 0 means as many as the memory of the machine (or
    * container) may be enough for. It counts 1350 bytes for each, or 2700 in the exact tier, as the
-   * largest primitives take; lone spheres take 600. There can never be more than 33554432. A solid of
-   * several primitives, or a mesh, counts once if one entity is placed 16 times or more, and each of
-   * its uses as one primitive of 512 bytes. */
+   * largest primitives take; lone spheres take 600. There can never be more than 33554432. A
+   * solid of several primitives, or a mesh, counts once if one entity is placed 16 times or more, and
+   * each of its uses as one primitive of 512 bytes. */
   uint64_t max_primitives;
 } crt_prepare_options;
 

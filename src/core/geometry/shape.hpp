@@ -79,6 +79,14 @@ struct CoreSegment {
 
 class FacetAttributes;
 
+/// A ShadingNormal is a normal for shading, which has unit length.
+struct ShadingNormal {
+  Vec3 direction;
+  /// Where the cosine of the angle to light is no more than this, a facet near to the point may be
+  /// turned away from the light.
+  double horizon = 0;
+};
+
 class Shape {
  public:
   Shape() = default;
@@ -146,6 +154,12 @@ class Shape {
 
   /// Returns what its facets have beyond what rays meet, or null. Only meshes may have any.
   virtual const FacetAttributes* facet_attributes() const { return nullptr; }
+  /// Returns the normal for shading at a point of a face, whose own normal is given. All are in
+  /// object space. Only meshes may have others than their faces.
+  virtual ShadingNormal shading_normal(std::uint32_t /*face*/, const Vec3& /*position*/,
+                                       const Vec3& normal) const {
+    return {normal};
+  }
 
   /// Returns how many faces, from the first on, are compared with those of all other shapes. The
   /// rest are so many, and so rarely coincide with any, that faces_near() finds those that may.

@@ -3,7 +3,6 @@
 #include <bit>
 #include <numbers>
 
-#include "core/geometry/mesh/mesh.hpp"
 #include "core/math/power.hpp"
 #include "core/render/hit_faces.hpp"
 #include "core/shading/bump.hpp"
@@ -19,13 +18,6 @@ ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointL
   if (!material.pattern) return lanes_of(material.color);
   stats.pattern_lookups += static_cast<unsigned>(std::popcount(alike));
   return material.pattern->colors(points, alike);
-}
-
-/// Returns the outward normal for shading of a point, both in object space.
-ShadingNormal shading_normal(const Leaf& leaf, std::uint32_t face, const SurfacePoint& point) {
-  if (!leaf.has_normals) return {point.normal};
-  const MeshShape& mesh = static_cast<const MeshShape&>(*leaf.shape);
-  return mesh.shading_normal(face, point.position, point.normal);
 }
 
 /// Returns a normal for shading in the world, tilted by the material's bumps. `normal` and the
@@ -75,7 +67,8 @@ void set_shading_normals(const PreparedData& data, const AlikeHits& alike,
     const RayHit& hit = alike.hits[lane];
     const LeafOfHit in_place = data.placed_leaf(hit);
     const SurfacePoint point = lane_of(points, lane);
-    const auto [plain, horizon] = shading_normal(in_place.leaf(), hit.face, point);
+    const auto [plain, horizon] =
+        in_place.leaf().shape->shading_normal(hit.face, point.position, point.normal);
     group.horizons[lane] = horizon;
     const Vec3 normal = alike.material.bump
                             ? bumped_normal(in_place, hit.face, alike.material, point, plain, work)

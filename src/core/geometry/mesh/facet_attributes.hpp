@@ -36,14 +36,6 @@ struct CornerValues {
 /// and the normal of a facet that has it.
 using CornerNormals = CornerValues<4>;
 
-/// A ShadingNormal is a normal for shading, which has unit length.
-struct ShadingNormal {
-  Vec3 direction;
-  /// Where the cosine of the angle to light is no more than this, a facet near to the point may be
-  /// turned away from the light.
-  double horizon = 0;
-};
-
 /// GivenFacets say which of the triangles that a mesh was made of became its facets.
 struct GivenFacets {
   std::span<const TriangleIndices> triangles;  ///< as they were given

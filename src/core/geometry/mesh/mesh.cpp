@@ -11,11 +11,13 @@ bool MeshShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 
 ShadingNormal MeshShape::shading_normal(std::uint32_t face, const Vec3& position,
                                         const Vec3& normal) const {
+  const FacetAttributes* const attributes = facet_attributes();
+  if (attributes == nullptr || !attributes->has_normals()) return {normal};
   const Triangle triangle = triangles_->triangle(face);
   double u = 0;
   double v = 0;
   write_weights(triangle, position - triangle.a, u, v);
-  return facet_attributes()->normal(face, u, v, normal);
+  return attributes->normal(face, u, v, normal);
 }
 
 Surface MeshShape::surface(std::uint32_t face) const {

@@ -43,7 +43,8 @@ class MeshShape final : public Shape {
   }
   /// Returns the normal for shading at a point of a facet with normals. `normal` is the facet's, of
   /// either sign, and the result is on that side.
-  ShadingNormal shading_normal(std::uint32_t face, const Vec3& position, const Vec3& normal) const;
+  ShadingNormal shading_normal(std::uint32_t face, const Vec3& position,
+                               const Vec3& normal) const override;
   std::uint32_t face_count() const override { return triangles_->size(); }
   Surface surface(std::uint32_t face) const override;
   const FacetAttributes* facet_attributes() const override { return triangles_->attributes(); }
