@@ -328,8 +328,7 @@ void Compiler::finish_objects() {
     workers_.poll_at(result_.objects.size());
     object.bounds = bounds_of(object);
     // A surface that is no solid is an object by itself.
-    if (!object.solid && !object.is_instance())
-      result_.leaves[object.first_leaf].of_solid = false;
+    if (!object.solid && !object.is_instance()) result_.leaves[object.first_leaf].of_solid = false;
     if (!object.bounds.empty()) result_.objects.push_back(object);
   }
 }
@@ -347,8 +346,8 @@ Bounds Compiler::bounds_of(const SceneObject& object) const {
 }  // namespace
 
 CompiledScene compile(std::span<const Entity> entities, Precision precision, const Workers& workers,
-                      std::uint64_t max_primitives) {
-  FlatScene flat = flatten(entities, precision, workers, PrimitiveLimit(precision, max_primitives));
+                      const PrimitiveLimit& limit) {
+  FlatScene flat = flatten(entities, precision, workers, limit);
   const bool refers_to_entities = precision == Precision::exact || !flat.instances.empty();
   CompiledScene result = Compiler(std::move(flat), precision, workers).compile();
   if (refers_to_entities) {

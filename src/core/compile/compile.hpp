@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/compile/part.hpp"
+#include "core/compile/primitive_limit.hpp"
 #include "core/csg/instance.hpp"
 #include "core/csg/program.hpp"
 #include "core/ray/ray_hit.hpp"
@@ -83,9 +84,8 @@ struct CompiledScene {
 /// Compiles entities. Unions at the top become objects of their own where their parts are disjoint.
 /// Transforms are composed once, materials and ids are resolved, and faces that coincide get one
 /// surface. It takes O(n log n) on as many threads as `workers` says, and the result is always the
-/// same. Throws Error (limit) if there are more than `max_primitives`, or, if that is 0, more than
-/// there is memory for.
+/// same. Throws Error (limit) as the limit says, and if there are more faces than can be numbered.
 CompiledScene compile(std::span<const Entity> entities, Precision precision = Precision::standard,
-                      const Workers& workers = {}, std::uint64_t max_primitives = 0);
+                      const Workers& workers = {}, const PrimitiveLimit& limit = {});
 
 }  // namespace crt::core

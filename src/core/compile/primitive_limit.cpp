@@ -33,6 +33,7 @@ std::uint64_t memory_limit() {
 }  // namespace
 
 void PrimitiveLimit::check(const Instancing::Count& count) const {
+  if (!is_limited_) return;
   constexpr std::uint64_t few = std::uint64_t{1} << 16;  // for which memory is not looked at
   const std::uint64_t primitives = count.primitives + count.instances;
   if (primitives > most_numbered) {

@@ -24,16 +24,19 @@ class PrimitiveLimit {
   /// Faces, leaves and nodes have numbers of 32 bits, and a primitive may have some of each.
   static constexpr std::uint64_t most_numbered = std::uint64_t{1} << 25;
 
+  /// Sets no limit.
+  PrimitiveLimit() = default;
   /// If `most` is 0, the limit is what there is memory for.
-  explicit PrimitiveLimit(Precision precision, std::uint64_t most = 0)
-      : precision_(precision), most_(most) {}
+  PrimitiveLimit(Precision precision, std::uint64_t most)
+      : is_limited_(true), precision_(precision), most_(most) {}
 
   /// Throws Error (limit) if that is too many.
   void check(const Instancing::Count& count) const;
 
  private:
-  Precision precision_;
-  std::uint64_t most_;
+  bool is_limited_ = false;
+  Precision precision_ = Precision::standard;
+  std::uint64_t most_ = 0;
 };
 
 }  // namespace crt::core

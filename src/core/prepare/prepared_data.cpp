@@ -118,7 +118,10 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
     geometry_ = earlier->geometry_;
   } else {
     geometry_ = std::make_shared<const Geometry>(
-        scene, compile(scene.entities, scene.settings.precision, workers, max_primitives), workers);
+        scene,
+        compile(scene.entities, scene.settings.precision, workers,
+                PrimitiveLimit(scene.settings.precision, max_primitives)),
+        workers);
   }
   accelerator_ = &geometry_->accelerator;
   leaves_ = accelerator_->compiled().leaves;
