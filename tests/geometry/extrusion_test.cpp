@@ -8,6 +8,7 @@
 
 #include "core/math/vector.hpp"
 #include "geometry/exact_tools.hpp"
+#include "geometry/line_checks.hpp"
 #include "geometry/profiles.hpp"
 
 using namespace crt;
@@ -55,27 +56,6 @@ Extrusion whole_extrusion(Random& random) {
   return {.profile = make_profile(whole_contours(random)),
           .from = from,
           .to = from + 1 + std::floor(random.uniform(0, 4))};
-}
-
-core::CrossingList crossings(const core::Shape& shape, const core::ObjectRay& ray) {
-  core::CrossingList result;
-  REQUIRE_FALSE(shape.crossings(ray, result));
-  return result;
-}
-
-/// Returns a ray of small numbers, of which many pass through corners and along faces, or any.
-core::ObjectRay hard_ray(Random& random) {
-  const auto whole = [&] { return std::floor(random.uniform(-4, 4)); };
-  core::ObjectRay ray;
-  ray.origin = {whole(), whole(), whole()};
-  do {
-    ray.direction = {whole(), whole(), whole()};
-    if (random.one_in(4)) ray.direction.x = 0;
-    if (random.one_in(4)) ray.direction.y = 0;
-  } while (core::largest_component(ray.direction) == 0);
-  if (random.one_in(3)) ray.origin += 0.5 * random.in_cube();
-  if (random.one_in(3)) ray.direction += random.in_cube();
-  return ray;
 }
 
 /// Checks that two solids are crossed at the same bits, in both tiers.

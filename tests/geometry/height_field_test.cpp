@@ -20,6 +20,7 @@
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
 #include "geometry/height_fields.hpp"
+#include "geometry/line_checks.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -86,21 +87,6 @@ Ray hard_ray(Random& random, const TriangleList& mesh) {
   if (core::largest_component(direction) == 0) direction.z = 1;
   const double back = random.one_in(2) ? 8 : random.uniform(0, 8);
   return {.origin = aim - back * direction, .direction = direction, .t_min = -1e6};
-}
-
-void check_turns(const std::vector<Hit>& hits, const Ray& ray) {
-  REQUIRE(hits.size() % 2 == 0);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    REQUIRE(hits[i].entering == (i % 2 == 0));
-    if (i > 0) REQUIRE(hits[i - 1].t <= hits[i].t);
-    const double along = glm::dot(hits[i].normal, ray.direction) / glm::length(ray.direction);
-    if (std::abs(along) > 1e-9) REQUIRE((along < 0) == hits[i].entering);
-  }
-}
-
-bool are_alike(const core::Crossing& a, const core::Crossing& b) {
-  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.face == b.face &&
-         a.entering == b.entering;
 }
 
 std::string argument_of(const std::vector<double>& heights, std::uint32_t columns,

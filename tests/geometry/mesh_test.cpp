@@ -15,6 +15,7 @@
 #include "crt/query.hpp"
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
+#include "geometry/line_checks.hpp"
 #include "geometry/meshes.hpp"
 
 using namespace crt;
@@ -66,17 +67,6 @@ Ray hard_ray(Random& random, const TriangleList& mesh) {
   return {.origin = aim - back * direction, .direction = direction, .t_min = -1e6};
 }
 
-/// Checks that hits come in order, enter and leave by turns, and face the ray as their normals say.
-void check_turns(const std::vector<Hit>& hits, const Ray& ray) {
-  REQUIRE(hits.size() % 2 == 0);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    REQUIRE(hits[i].entering == (i % 2 == 0));
-    if (i > 0) REQUIRE(hits[i - 1].t <= hits[i].t);
-    const double along = glm::dot(hits[i].normal, ray.direction) / glm::length(ray.direction);
-    if (std::abs(along) > 1e-9) REQUIRE((along < 0) == hits[i].entering);
-  }
-}
-
 /// Adds another mesh, moved and scaled.
 void add(TriangleList& list, const TriangleList& other, const Vec3& place, double scale) {
   const auto first = static_cast<std::uint32_t>(list.positions.size());
@@ -105,11 +95,6 @@ void spoil(Random& random, TriangleList& mesh, bool open) {
       mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(triangle));
     }
   }
-}
-
-bool are_alike(const core::Crossing& a, const core::Crossing& b) {
-  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.face == b.face &&
-         a.entering == b.entering;
 }
 
 }  // namespace

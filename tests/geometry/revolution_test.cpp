@@ -12,6 +12,7 @@
 #include "crt/query.hpp"
 #include "crt/scene.hpp"
 #include "geometry/exact_tools.hpp"
+#include "geometry/line_checks.hpp"
 #include "geometry/torus_oracle.hpp"
 #include "geometry/turned_profiles.hpp"
 
@@ -95,29 +96,6 @@ Subject random_revolution(Random& random) {
 
 Revolution whole_revolution(Random& random) {
   return {.profile = whole_turned_profile(random), .angle = random_turn(random)};
-}
-
-core::CrossingList crossings(const core::Shape& shape, const core::ObjectRay& ray) {
-  core::CrossingList result;
-  REQUIRE_FALSE(shape.crossings(ray, result));
-  return result;
-}
-
-/// Returns a ray of small numbers, of which many pass through corners, the axis and along faces.
-core::ObjectRay hard_ray(Random& random) {
-  const auto whole = [&] { return std::floor(random.uniform(-5, 5)); };
-  core::ObjectRay ray;
-  ray.origin = {whole(), whole(), whole()};
-  do {
-    ray.direction = {whole(), whole(), whole()};
-    if (random.one_in(4)) ray.direction.x = 0;
-    if (random.one_in(4)) ray.direction.y = 0;
-    if (random.one_in(4)) ray.direction.z = 0;
-  } while (core::largest_component(ray.direction) == 0);
-  if (random.one_in(4)) ray.origin.x = ray.origin.z = 0;
-  if (random.one_in(3)) ray.origin += 0.5 * random.in_cube();
-  if (random.one_in(3)) ray.direction += random.in_cube();
-  return ray;
 }
 
 /// Checks that crossings come in order and by turns, and that normals face the ray.
