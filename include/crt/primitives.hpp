@@ -202,11 +202,14 @@ struct Revolution {
 
 class HeightGrid;
 
+/// This is the largest number of heights that a grid may have.
+inline constexpr std::uint64_t most_heights = std::uint64_t{1} << 27;
+
 /// Makes a grid of heights for height fields, of `columns` along x and `rows` along z. heights[row
 /// * columns + column] is the height there. A height is a share of a box, from 0 at its lower y to
 /// 1 at its upper. It takes O(n) on the calling thread. Throws Error (invalid_argument) naming the
 /// column and the row for a height that is not from 0 to 1, if all heights are 0, if there are
-/// fewer than 2 columns or rows, or more than 2^27 heights, and for a wrong number of heights.
+/// fewer than 2 columns or rows, or more than most_heights, and for a wrong number of heights.
 std::shared_ptr<const HeightGrid> make_height_grid(std::vector<double> heights,
                                                    std::uint32_t columns, std::uint32_t rows);
 

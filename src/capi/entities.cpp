@@ -43,9 +43,8 @@ Transform to_transform(const double* affine) {
 /// Copies heights. Sizes that no grid may have are refused before any height is read.
 std::shared_ptr<const HeightGrid> to_height_grid(const double* heights, std::uint32_t columns,
                                                  std::uint32_t rows) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 27;
   const std::uint64_t count = std::uint64_t{columns} * rows;
-  const bool is_fine = columns > 1 && rows > 1 && count <= most;
+  const bool is_fine = columns > 1 && rows > 1 && count <= crt::most_heights;
   std::vector<double> copied;
   if (is_fine) copied.assign(heights, heights + count);
   return make_height_grid(std::move(copied), columns, rows);

@@ -51,8 +51,8 @@ void find_unlisted_faces(std::span<Leaf> leaves, const Workers& workers) {
     if (leaf.face_count == leaf.shape->face_count()) continue;
     std::vector<std::uint32_t> faces;
     for (const Leaf& other : leaves) {
-      constexpr std::uint32_t most_faces = std::uint32_t{1} << 16;
-      if (&other == &leaf || other.face_count > most_faces || !other.bounds.touches(leaf.bounds)) {
+      if (&other == &leaf || other.face_count > Shape::most_compared_faces ||
+          !other.bounds.touches(leaf.bounds)) {
         continue;
       }
       for (std::uint32_t face = 0; face < other.shape->listed_face_count(); ++face) {

@@ -161,6 +161,8 @@ class Shape {
     return {normal};
   }
 
+  /// A shape of more faces is compared with others face by face only as far as it has listed them.
+  static constexpr std::uint32_t most_compared_faces = std::uint32_t{1} << 16;
   /// Returns how many faces, from the first on, are compared with those of all other shapes. The
   /// rest are so many, and so rarely coincide with any, that faces_near() finds those that may.
   virtual std::uint32_t listed_face_count() const { return face_count(); }

@@ -36,11 +36,11 @@ void HeightGrid::check() const {
     reject_grid(fmt::format("a height field needs at least 2 rows of heights (it has {})", rows_),
                 "rows");
   }
-  constexpr std::uint64_t most = std::uint64_t{1} << 27;
   const std::uint64_t count = std::uint64_t{columns_} * rows_;
-  if (count > most) {
-    reject_grid(fmt::format("a height field has at most {} heights (it has {})", most, count),
-                "heights");
+  if (count > most_heights) {
+    reject_grid(
+        fmt::format("a height field has at most {} heights (it has {})", most_heights, count),
+        "heights");
   }
   if (heights_.size() != count) {
     reject_grid(fmt::format("{} columns and {} rows need {} heights, not {}", columns_, rows_,
