@@ -9,25 +9,15 @@
 #include <crt/query.hpp>
 #include <crt/scene.hpp>
 #include <cstdint>
-#include <ctime>
 #include <vector>
+
+#include "times.hpp"
 
 namespace {
 
 using namespace crt;
-
-/// Returns the processor's time that a call takes, which other work on the machine does not change.
-template <class Call>
-double seconds(const Call& call) {
-  const std::clock_t begin = std::clock();
-  call();
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
+using crt::bench::median;
+using crt::bench::seconds;
 
 /// Returns mountains: waves of ever shorter lengths, each in another direction.
 std::vector<double> mountains(std::uint32_t side) {
