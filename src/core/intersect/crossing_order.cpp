@@ -1,6 +1,7 @@
 #include "core/intersect/crossing_order.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -98,7 +99,8 @@ void sort_near(const CompiledScene& scene, const WorldRay& ray, std::span<RayHit
             start_on_leaf(leaf, hit.leaf - object.first_leaf, prototype.face_surfaces,
                           start_in_prototype(scene, object, ray.start))};
   };
-  if (!sort_exactly(near, leaf_on_ray, ray, work.leaf_escalations)) return;
+  // By reference the function takes no memory.
+  if (!sort_exactly(near, std::ref(leaf_on_ray), ray, work.leaf_escalations)) return;
   std::vector<RayHit>& before = work.unsorted;
   before.assign(crossings.begin(), crossings.end());
   const NearCrossing* best = nullptr;
