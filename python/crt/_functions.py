@@ -197,6 +197,14 @@ FUNCTIONS = {
         "const double corner_b[3]",
         "crt_entity** out",
     ),
+    "crt_quadric_create": (
+        "crt_status",
+        "const double squares[3]",
+        "const double products[3]",
+        "const double linear[3]",
+        "double constant",
+        "crt_entity** out",
+    ),
     "crt_empty_create": ("crt_status", "crt_entity** out"),
     "crt_union_create": (
         "crt_status",

@@ -189,9 +189,10 @@ Subject make_crowd(Counted& random, const Vec3& at, double size) {
     const bool is_elsewhere =
         (std::holds_alternative<Mesh>(part) || std::holds_alternative<Extrusion>(part)) &&
         !(glm::length(center_of(part) - middle) <= 2 * size);
-    // Planes are in all cells, and so may be revolutions, which are about one axis.
-    const bool is_wide =
-        std::holds_alternative<Plane>(part) || std::holds_alternative<Revolution>(part);
+    // Planes are in all cells, and so may be quadrics, and revolutions, which are about one axis.
+    const bool is_wide = std::holds_alternative<Plane>(part) ||
+                         std::holds_alternative<Quadric>(part) ||
+                         std::holds_alternative<Revolution>(part);
     if (is_wide || is_elsewhere) part = Sphere{.center = middle, .radius = size};
     crowd.parts.push_back(part);
     crowd.entities.emplace_back(part);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 
 #include "oracle/equations.hpp"
 #include "oracle/places.hpp"
@@ -188,7 +189,14 @@ class Solution {
     const Places<Number> places(std::span(equations_.begin(), equations_.end()));
     TrueLine result;
     const auto inside = [&](const std::vector<int>& signs) { return is_inside(any_, signs); };
-    result.inside_before = follow(places, inside, [&](const Place<Number>& place, bool entering) {
+    std::optional<bool> inside_within;
+    const bool before = follow(places, inside, [&](const Place<Number>& place, bool entering) {
+      // A crossing beyond the largest double is none.
+      const double rounded_x = place.x.value();
+      if (!std::isfinite(rounded_x + line_.shift)) {
+        if (rounded_x < 0) inside_within = entering;
+        return;
+      }
       const double own_approach = approach_at(place);
       TrueCrossing crossing =
           crossing_at(place.x, place.flips[0].polynomial, entering, own_approach);
@@ -208,6 +216,7 @@ class Solution {
       }
       result.crossings.push_back(std::move(crossing));
     });
+    result.inside_before = inside_within.value_or(before);
     return result;
   }
 

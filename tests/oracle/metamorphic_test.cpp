@@ -244,10 +244,10 @@ TEST_CASE("a reversed ray meets a tree of solids at the same places") {
 TEST_CASE("a bounded solid is entered and left by turns, as often the one as the other") {
   constexpr std::uint64_t rays = 5'000;
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
-    const std::string_view name = name_of_primitive(kind);
-    if (!core::is_solid(make_ray(kind, 0).primitive) || name == "plane") continue;
+    if (!core::is_solid(make_ray(kind, 0).primitive)) continue;
     for (std::uint64_t number = 0; number < rays; ++number) {
       const TestRay ray = make_ray(kind, number);
+      if (!core::make_shape(ray.primitive)->bounds().finite()) continue;
       for (const Contestant& tier : {standard_tier(), exact_tier()}) {
         const Answer found = answer(tier, ray);
         bool inside = found.inside_before;

@@ -95,7 +95,7 @@ Spot spot(Counted& random, const Quadric& q) {
     const double a = glm::dot(d, curved(q, d)) / 2;
     const double b = glm::dot(d, curved(q, o) + q.linear) / 2;
     const double discriminant = b * b - a * sum_at(q, o);
-    if (!(discriminant >= 0)) continue;
+    if (!(discriminant > 0)) continue;
     const double sum = std::abs(b) + std::sqrt(discriminant);
     p = o + (b > 0 ? -1 : 1) *
                 (random.integer(0, 1) == 0 && std::abs(a) > 1e-6 * sum / reach

@@ -23,13 +23,25 @@ Vec3 random_axis(Counted& random) {
   return axis;
 }
 
+/// Returns a quadric whose numbers are small integers: what a sphere or a cylinder is, a double
+/// cone or a hyperboloid about the axis, or a slab across it.
+Quadric grid_quadric(Counted& random, const Vec3& at, const Vec3& axis, double size) {
+  const Vec3 along = axis * axis;
+  const int kind = random.integer(0, 3);
+  const Vec3 squares = kind < 3 ? Vec3(1) - static_cast<double>(kind) * along : along;
+  const bool has_apex = kind == 2 && random.integer(0, 1) == 0;
+  return {.squares = squares,
+          .linear = -2.0 * squares * at,
+          .constant = glm::dot(squares, at * at) - (has_apex ? 0 : size * size)};
+}
+
 /// Returns a leaf whose numbers are small integers.
 Primitive grid_leaf(Counted& random) {
   const Vec3 at = whole_vector(random, 2);
   const Vec3 axis = random_axis(random);
   const double size = random.integer(1, 2);
   const double other = random.integer(1, 2);
-  switch (random.integer(0, 9)) {
+  switch (random.integer(0, 10)) {
     case 0:
       return Sphere{.center = at, .radius = size};
     case 1:
@@ -45,6 +57,8 @@ Primitive grid_leaf(Counted& random) {
       return Torus{.center = at, .axis = axis, .radius = size, .thickness = other / 2};
     case 5:
       return Capsule{.from = at, .to = at + other * axis, .radius = size};
+    case 6:
+      return grid_quadric(random, at, axis, size);
     default:
       return Box{.corner_a = at, .corner_b = at + Vec3(size, other, random.integer(1, 3))};
   }
