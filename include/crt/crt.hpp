@@ -7,6 +7,7 @@
 #include <crt/curves.hpp>
 #include <crt/entity.hpp>
 #include <crt/error.hpp>
+#include <crt/field.hpp>
 #include <crt/file.hpp>
 #include <crt/image.hpp>
 #include <crt/job.hpp>

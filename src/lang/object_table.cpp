@@ -9,6 +9,7 @@
 
 #include "crt/validate.hpp"
 #include "lang/failure.hpp"
+#include "lang/field_objects.hpp"
 #include "lang/no_size.hpp"
 #include "lang/object_builder.hpp"
 #include "lang/text_object.hpp"
@@ -134,9 +135,6 @@ std::vector<ObjectType> entities() {
                           attribute("material", &MeshOfFile::material, "as the file has it")},
                          finish_mesh),
       text_object(),
-      entity<Implicit>("Implicit",
-                       {required("field", &Implicit::field), required("lower", &Implicit::lower),
-                        required("upper", &Implicit::upper)}),
   };
 }
 
@@ -380,6 +378,7 @@ ObjectType background() {
 std::span<const ObjectType> object_types() {
   static const std::vector<ObjectType> table = [] {
     std::vector<ObjectType> types = entities();
+    for (ObjectType& type : field_objects()) types.push_back(std::move(type));
     types.push_back(material());
     for (ObjectType& type : patterns()) types.push_back(std::move(type));
     types.push_back(camera());

@@ -86,6 +86,18 @@ TEST_CASE("functions hold the true values of every number of an interval") {
   check_range(logarithm, [](Long x) { return std::log(x); }, 1e-300);
   check_range(sine, [](Long x) { return std::sin(x); });
   check_range(cosine, [](Long x) { return std::cos(x); });
+  const auto middle = [](const Interval& x) {
+    const double center = x.lo + 0.5 * (x.hi - x.lo);
+    return Interval{center, center};
+  };
+  check_range([&](auto x) { return wave(middle(x), x).sine; },
+              [](Long x) { return std::sin(x); });
+  check_range([&](auto x) { return wave(middle(x), x).cosine; },
+              [](Long x) { return std::cos(x); });
+  check_range([](auto x) { return wave(x, {x.lo - 0.01, x.hi + 0.05}).sine_in_middle; },
+              [](Long x) { return std::sin(x); });
+  check_range([](auto x) { return wave(x, {x.lo - 0.01, x.hi + 0.05}).cosine_in_middle; },
+              [](Long x) { return std::cos(x); });
   check_range(tangent, [](Long x) { return std::tan(x); });
   check_range(arc_sine, [](Long x) { return std::asin(x); }, -1, 1);
   check_range(arc_cosine, [](Long x) { return std::acos(x); }, -1, 1);

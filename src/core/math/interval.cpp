@@ -1,6 +1,7 @@
 #include "core/math/interval.hpp"
 
 #include <numbers>
+#include <utility>
 
 namespace crt::core {
 
@@ -9,7 +10,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Returns the range of sine or cosine, given its values at both ends and where it is greatest.
-Interval wave(const Interval& a, double at_low, double at_high, double greatest) {
+Interval range_of_wave(const Interval& a, double at_low, double at_high, double greatest) {
   Interval result = around(std::min(at_low, at_high), std::max(at_low, at_high));
   result.lo = may_contain_turn(a, greatest + pi, 2 * pi) ? -1 : std::max(result.lo, -1.0);
   result.hi = may_contain_turn(a, greatest, 2 * pi) ? 1 : std::min(result.hi, 1.0);
@@ -53,12 +54,43 @@ Interval logarithm(const Interval& a) {
 
 Interval sine(const Interval& a) {
   if (!(a.width() < 2 * pi)) return {-1, 1};
-  return wave(a, std::sin(a.lo), std::sin(a.hi), pi / 2);
+  return range_of_wave(a, std::sin(a.lo), std::sin(a.hi), pi / 2);
 }
 
 Interval cosine(const Interval& a) {
   if (!(a.width() < 2 * pi)) return {-1, 1};
-  return wave(a, std::cos(a.lo), std::cos(a.hi), 0);
+  return range_of_wave(a, std::cos(a.lo), std::cos(a.hi), 0);
+}
+
+Wave wave(const Interval& middle, const Interval& all) {
+  // Taylor's series about a centre takes one call of each function.
+  constexpr double widest = 0.5;
+  const bool is_narrow = all.width() <= widest;
+  const Interval& about = is_narrow ? all : middle;
+  const double center = about.lo + 0.5 * about.width();
+  if (!(about.width() <= widest)) return {{-1, 1}, {-1, 1}, sine(all), cosine(all)};
+  const Interval s = around(std::sin(center), std::sin(center));
+  const Interval c = around(std::cos(center), std::cos(center));
+  const auto of = [&](const Interval& x) {
+    const Interval off = x - Interval::of(center);
+    const double rest = rounded_up(0.5 * off.magnitude() * off.magnitude());
+    const Interval remainder = {-rest, rest};
+    return std::pair{s + c * off + remainder, c - s * off + remainder};
+  };
+  const auto within_one = [](const Interval& x) {
+    return Interval{std::max(x.lo, -1.0), std::min(x.hi, 1.0)};
+  };
+  const auto [sine_in_middle, cosine_in_middle] = of(middle);
+  Wave result = {within_one(sine_in_middle), within_one(cosine_in_middle), {}, {}};
+  if (is_narrow) {
+    const auto [sine_of_all, cosine_of_all] = of(all);
+    result.sine = within_one(sine_of_all);
+    result.cosine = within_one(cosine_of_all);
+  } else {
+    result.sine = sine(all);
+    result.cosine = cosine(all);
+  }
+  return result;
 }
 
 Interval tangent(const Interval& a) {

@@ -123,6 +123,15 @@ Interval exponential(const Interval& a);
 Interval logarithm(const Interval& a);
 Interval sine(const Interval& a);
 Interval cosine(const Interval& a);
+/// A Wave has the sine and the cosine of all numbers of an interval, and those of a narrow interval
+/// in it.
+struct Wave {
+  Interval sine_in_middle;
+  Interval cosine_in_middle;
+  Interval sine;
+  Interval cosine;
+};
+Wave wave(const Interval& middle, const Interval& all);
 /// Has no bounds across a pole.
 Interval tangent(const Interval& a);
 Interval arc_sine(const Interval& a);

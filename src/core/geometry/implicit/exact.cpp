@@ -13,7 +13,7 @@ class ExactImplicitShape final : public ExactShape {
  public:
   explicit ExactImplicitShape(const Implicit& implicit)
       : box_(make_exact_shape(Box{.corner_a = implicit.lower, .corner_b = implicit.upper})),
-        program_(implicit.field),
+        program_(FieldProgram::of(implicit.field)),
         corners_{exactly(implicit.lower), exactly(implicit.upper)} {}
 
   bool crossings(const ExactRay& ray, CrossingList& out) const override {
@@ -23,7 +23,7 @@ class ExactImplicitShape final : public ExactShape {
     // The low parts of the ray have roundings, too.
     constexpr double low_parts = 0x1p-104;
     return replace_by_field_crossings(
-        program_,
+        *program_,
         {.ray = ray.near,
          .is_exact = true,
          .origin_error = ray.origin_error + low_parts * largest_component(ray.near.origin),
@@ -44,18 +44,18 @@ class ExactImplicitShape final : public ExactShape {
 
   ExactSurface surface(std::uint32_t face) const override {
     if (face >= first_box_face) return box_->surface(face - first_box_face);
-    ExactSurface result{.points = {exactly(Vec3(0))}, .numbers = program_.numbers()};
+    ExactSurface result{.points = {exactly(Vec3(0))}, .numbers = program_->numbers()};
     for (const DyadicVector& corner : corners_) {
       for (const Dyadic& coordinate : corner) result.numbers.push_back(coordinate);
     }
     return result;
   }
 
-  std::size_t bytes() const override { return sizeof *this + box_->bytes() + program_.bytes(); }
+  std::size_t bytes() const override { return sizeof *this + box_->bytes() + program_->bytes(); }
 
  private:
   std::unique_ptr<const ExactShape> box_;
-  FieldProgram program_;
+  std::shared_ptr<const FieldProgram> program_;
   std::array<DyadicVector, 2> corners_;
 };
 

@@ -30,7 +30,7 @@ class Part {
     return {place + direction * Interval::of(middle_), place + direction * all_, direction};
   }
 
-  /// Takes the mean value form to cut off values that the step does not have.
+  /// Takes the mean value form to cut off values that a step does not have. It pays for the last.
   void tighten(Triple& step) const {
     const double change = rounded_up(reach_ * step.slope.magnitude());
     const double lo = sum_down(step.middle.lo - change);
@@ -148,10 +148,14 @@ Triple Part::of_one(FieldOperation operation, double number, const Triple& a) {
               : a.all.hi <= 0 ? -a.slope
                               : hull(a.slope, -a.slope)};
     }
-    case FieldOperation::sine:
-      return {sine(a.middle), sine(a.all), cosine(a.all) * a.slope};
-    case FieldOperation::cosine:
-      return {cosine(a.middle), cosine(a.all), -(sine(a.all) * a.slope)};
+    case FieldOperation::sine: {
+      const Wave of_a = wave(a.middle, a.all);
+      return {of_a.sine_in_middle, of_a.sine, of_a.cosine * a.slope};
+    }
+    case FieldOperation::cosine: {
+      const Wave of_a = wave(a.middle, a.all);
+      return {of_a.cosine_in_middle, of_a.cosine, -(of_a.sine * a.slope)};
+    }
     case FieldOperation::tangent: {
       const Interval all = tangent(a.all);
       if (all.magnitude() == infinity) may_be_undefined = true;
@@ -205,7 +209,7 @@ FieldLine::Values FieldLine::evaluate(double from, double to) const {
   using enum FieldOperation;
   std::array<Triple, FieldProgram::most_registers> registers;
   Part part(from, to);
-  const Triple* last = nullptr;
+  Triple* last = nullptr;
   for (const FieldStep& step : program_.steps()) {
     Triple& result = registers[step.result];
     const Triple& a = registers[step.a];
@@ -253,8 +257,8 @@ FieldLine::Values FieldLine::evaluate(double from, double to) const {
               .may_be_undefined = true,
               .is_undefined = true};
     }
-    part.tighten(result);
   }
+  part.tighten(*last);
   return {.middle = last->middle,
           .all = last->all,
           .slope = last->slope,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 
 #include "crt/field.hpp"
 
@@ -39,12 +40,18 @@ enum class FieldOperation : std::uint8_t {
   round,
 };
 
+class FieldProgram;
+
 struct FieldNode {
   FieldOperation operation = FieldOperation::constant;
   double number = 0;
   std::shared_ptr<const FieldNode> a{};
   std::shared_ptr<const FieldNode> b{};
   std::uint32_t depth = 1;  ///< counts the operations within one another
+
+  /// All solids of a field share its program, which is made when the first of them is.
+  mutable std::once_flag program_once{};
+  mutable std::shared_ptr<const FieldProgram> program{};
 
   /// Makes a field of an operation. Throws Error (invalid_argument) if it is too deep.
   static Field make(FieldOperation operation, double number = 0, const Field* a = nullptr,

@@ -124,6 +124,13 @@ FieldProgram::FieldProgram(const Field& field) {
   assign_registers(steps_);
 }
 
+std::shared_ptr<const FieldProgram> FieldProgram::of(const Field& field) {
+  const FieldNode& node = field.node();
+  std::call_once(node.program_once,
+                 [&] { node.program = std::make_shared<const FieldProgram>(field); });
+  return node.program;
+}
+
 std::vector<Dyadic> FieldProgram::numbers() const {
   std::vector<Dyadic> result = {Dyadic(static_cast<double>(steps_.size()))};
   for (const FieldStep& step : steps_) {

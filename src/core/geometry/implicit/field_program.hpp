@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/geometry/implicit/field_node.hpp"
@@ -24,6 +25,9 @@ class FieldProgram {
  public:
   /// Throws Error (invalid_argument) for a field that takes too many steps or registers.
   explicit FieldProgram(const Field& field);
+
+  /// Returns the program of a field, which is made once. Throws as the constructor does.
+  static std::shared_ptr<const FieldProgram> of(const Field& field);
 
   /// The last step has the value of the field.
   const std::vector<FieldStep>& steps() const { return steps_; }

@@ -38,13 +38,13 @@ Surface surface_of(const Implicit& implicit, const FieldProgram& program) {
 
 ImplicitShape::ImplicitShape(const Implicit& implicit)
     : box_(make_shape(Box{.corner_a = implicit.lower, .corner_b = implicit.upper})),
-      program_(implicit.field),
-      surface_(surface_of(implicit, program_)) {}
+      program_(FieldProgram::of(implicit.field)),
+      surface_(surface_of(implicit, *program_)) {}
 
 bool ImplicitShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const std::size_t before = out.size();
   box_->crossings(as_box_sees(ray), out);
-  return replace_by_field_crossings(program_, {.ray = ray}, before, out);
+  return replace_by_field_crossings(*program_, {.ray = ray}, before, out);
 }
 
 ImplicitShape::Slope ImplicitShape::slope_at(const Vec3& place) const {
@@ -54,7 +54,7 @@ ImplicitShape::Slope ImplicitShape::slope_at(const Vec3& place) const {
   for (int axis = 0; axis < 3; ++axis) {
     std::array<Interval, 3> direction{};
     direction[static_cast<std::size_t>(axis)] = Interval::of(1);
-    const FieldLine::Values values = FieldLine(program_, at, direction).evaluate(0, 0);
+    const FieldLine::Values values = FieldLine(*program_, at, direction).evaluate(0, 0);
     const double slope = 0.5 * values.slope.lo + 0.5 * values.slope.hi;
     result.gradient[axis] = std::isfinite(slope) ? slope : 0;
     result.value = 0.5 * values.middle.lo + 0.5 * values.middle.hi;
@@ -112,7 +112,7 @@ void validate(const Implicit& implicit) {
       reject("upper", "must be above lower by at least 1e-100 in every coordinate");
     }
   }
-  const FieldProgram program(implicit.field);
+  FieldProgram::of(implicit.field);
 }
 
 std::unique_ptr<const Shape> make_shape(const Implicit& implicit) {

@@ -37,7 +37,8 @@ class ImplicitShape final : public Shape {
                  bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return first_box_face + box_->face_count(); }
   Surface surface(std::uint32_t face) const override;
-  std::size_t bytes() const override { return sizeof *this + box_->bytes() + program_.bytes(); }
+  /// Returns only its own bytes and those of the program, which others may share.
+  std::size_t bytes() const override { return sizeof *this + box_->bytes() + program_->bytes(); }
 
  private:
   struct Slope {
@@ -48,7 +49,7 @@ class ImplicitShape final : public Shape {
   Slope slope_at(const Vec3& place) const;
 
   std::unique_ptr<const Shape> box_;
-  FieldProgram program_;
+  std::shared_ptr<const FieldProgram> program_;
   Surface surface_;  ///< of face 0
 };
 
