@@ -96,7 +96,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(14);
+  const std::uint32_t kind = input_.below(15);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
