@@ -25,6 +25,7 @@ from .images import Image
 from .jobs import Job
 from .meshes import Mesh, load_mesh
 from .primitives import (
+    Blob,
     Box,
     Capsule,
     Cone,
@@ -38,6 +39,7 @@ from .primitives import (
     Plane,
     Revolution,
     Sphere,
+    Superellipsoid,
     Torus,
     Triangle,
 )
@@ -71,6 +73,7 @@ __all__ = [
     "BACKFACE",
     "Background",
     "BackgroundType",
+    "Blob",
     "Box",
     "Call",
     "Camera",
@@ -116,6 +119,7 @@ __all__ = [
     "Settings",
     "Sphere",
     "Status",
+    "Superellipsoid",
     "Torus",
     "Triangle",
     "__version__",

@@ -73,6 +73,8 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_mesh_init(&mesh, sizeof mesh);
   mesh.vertex_count = 1;
   const double heights[4] = {0.5, 1, 0, 0.25};
+  const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
+  const std::vector<crt_blob_part> many_parts(1025, blob_part);
 
   check_all({
       {"out", [&] { return crt_sphere_create(z, 1, nullptr); }},
@@ -109,6 +111,14 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"upper", [&] { return crt_implicit_create("x", 1, z, nullptr, &entity); }},
       {"upper", [&] { return crt_implicit_create("x", 1, o, z, &entity); }},
       {"out", [&] { return crt_implicit_create("x", 1, z, o, nullptr); }},
+      {"parts", [&] { return crt_blob_create(nullptr, 1, 0.5, &entity); }},
+      {"parts", [&] { return crt_blob_create(nullptr, 0, 0.5, &entity); }},
+      {"parts", [&] { return crt_blob_create(many_parts.data(), many_parts.size(), 1, &entity); }},
+      {"threshold", [&] { return crt_blob_create(&blob_part, 1, 0, &entity); }},
+      {"out", [&] { return crt_blob_create(&blob_part, 1, 0.5, nullptr); }},
+      {"east_west", [&] { return crt_superellipsoid_create(0, 1, &entity); }},
+      {"north_south", [&] { return crt_superellipsoid_create(1, 11, &entity); }},
+      {"out", [&] { return crt_superellipsoid_create(1, 1, nullptr); }},
       {"axis", [&] { return crt_torus_create(z, nullptr, 1, 0.1, &entity); }},
       {"center", [&] { return crt_disc_create(nullptr, o, 1, &entity); }},
       {"c", [&] { return crt_triangle_create(z, o, nullptr, &entity); }},
@@ -245,11 +255,13 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
   const EntityHandle ball = sphere(zero, 1);
   const SceneHandle scene = new_scene();
   const double heights[4] = {0.5, 1, 0, 0.25};
+  const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
   const ProfileHandle square = square_profile();
   for (const double bad : {not_a_number, infinity, -infinity}) {
     for (int axis = 0; axis < 3; ++axis) {
       Numbers v = {1, 2, 3};
       v[static_cast<std::size_t>(axis)] = bad;
+      const crt_blob_part wrong_part = {{v[0], v[1], v[2]}, {0, 0, 0}, 1, 1};
       crt_entity* out = nullptr;
       const double* const p = v.data();
       const double* const z = zero.data();
@@ -275,6 +287,9 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
           {"heights", [&] { return crt_height_field_create(corners.data(), 3, 2, z, u, &out); }},
           {"lower", [&] { return crt_implicit_create("x", 1, p, z, &out); }},
           {"upper", [&] { return crt_implicit_create("x", 1, z, p, &out); }},
+          {"parts", [&] { return crt_blob_create(&wrong_part, 1, 0.5, &out); }},
+          {"threshold", [&] { return crt_blob_create(&blob_part, 1, bad, &out); }},
+          {"east_west", [&] { return crt_superellipsoid_create(bad, 1, &out); }},
           {"axis", [&] { return crt_torus_create(z, p, 1, 0.1, &out); }},
           {"normal", [&] { return crt_disc_create(z, p, 1, &out); }},
           {"b", [&] { return crt_triangle_create(z, p, u, &out); }},
