@@ -716,12 +716,40 @@ CRT_API crt_status crt_quadric_create(const double squares[3], const double prod
  * Makes an implicit solid: all points from `lower` to `upper` at which a field f(x, y, z) is at
  * most 0. The text is an expression of the CRT language, in which x, y and z are the coordinates,
  * such as "x ** 2 + y ** 2 + z ** 2 - 1". `upper` is above `lower` by at least 1e-100 in every
- * coordinate. What is wrong with the text is CRT_ERROR_SCRIPT, and the message says where. Since
- * 1.1.
+ * coordinate. What is wrong with the text is CRT_ERROR_SCRIPT, and the message says where.
+ * Since 1.1.
  * @param length  in bytes
  */
 CRT_API crt_status crt_implicit_create(const char* field, size_t length, const double lower[3],
                                        const double upper[3], crt_entity** out);
+
+/**
+ * A part of a blob is a ball about `from`, or what is around the line from there to another point.
+ * With the share s of the radius that a point is away from it, it adds strength (1 - s^2)^2 where
+ * s < 1. A negative strength takes away. The struct is fixed for ever: 64 bytes.
+ */
+typedef struct crt_blob_part {
+  double from[3];
+  double to[3]; /**< equal to `from` for a ball, else at least 1e-100 from it */
+  double radius;
+  double strength; /**< not 0 */
+} crt_blob_part;
+
+/**
+ * Makes a blob: all points at which parts add up to a threshold or more, which is above 0. There
+ * may be some 300 balls or 150 lines. It is an implicit solid. Since 1.1.
+ */
+CRT_API crt_status crt_blob_create(const crt_blob_part* parts, size_t count, double threshold,
+                                   crt_entity** out);
+
+/**
+ * Makes a superellipsoid: all points at which (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) <= 1. It is
+ * an implicit solid, which reaches from -1 to 1 along all axes. Since 1.1.
+ * @param east_west    e, the shape across z, from 0.01 to 10
+ * @param north_south  n, the shape along z, from 0.01 to 10
+ */
+CRT_API crt_status crt_superellipsoid_create(double east_west, double north_south,
+                                             crt_entity** out);
 
 /**
  * Makes the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No

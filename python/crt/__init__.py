@@ -25,6 +25,7 @@ from .images import Image
 from .jobs import Job
 from .meshes import Mesh, load_mesh
 from .primitives import (
+    Blob,
     Box,
     Capsule,
     Cone,
@@ -39,6 +40,7 @@ from .primitives import (
     Quadric,
     Revolution,
     Sphere,
+    Superellipsoid,
     Torus,
     Triangle,
 )
@@ -72,6 +74,7 @@ __all__ = [
     "BACKFACE",
     "Background",
     "BackgroundType",
+    "Blob",
     "Box",
     "Call",
     "Camera",
@@ -118,6 +121,7 @@ __all__ = [
     "Settings",
     "Sphere",
     "Status",
+    "Superellipsoid",
     "Torus",
     "Triangle",
     "__version__",

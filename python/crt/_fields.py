@@ -383,6 +383,11 @@ FIELDS = {
             "light that a pixel may have lost by cutting off paths, if all light were white",
         ),
         ("double cutoff_max", ""),
+        (
+            "uint64_t undecided",
+            "how often interval arithmetic left open what a ray crosses of an implicit solid, "
+            "so that the signs on both sides decided it",
+        ),
     ),
     "crt_write_options": (
         (

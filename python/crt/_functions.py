@@ -205,6 +205,27 @@ FUNCTIONS = {
         "double constant",
         "crt_entity** out",
     ),
+    "crt_implicit_create": (
+        "crt_status",
+        "const char* field",
+        "size_t length",
+        "const double lower[3]",
+        "const double upper[3]",
+        "crt_entity** out",
+    ),
+    "crt_blob_create": (
+        "crt_status",
+        "const crt_blob_part* parts",
+        "size_t count",
+        "double threshold",
+        "crt_entity** out",
+    ),
+    "crt_superellipsoid_create": (
+        "crt_status",
+        "double east_west",
+        "double north_south",
+        "crt_entity** out",
+    ),
     "crt_empty_create": ("crt_status", "crt_entity** out"),
     "crt_union_create": (
         "crt_status",

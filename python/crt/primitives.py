@@ -19,6 +19,7 @@ from .errors import named
 from .values import Material
 
 __all__ = [
+    "Blob",
     "Box",
     "Capsule",
     "Cone",
@@ -33,6 +34,7 @@ __all__ = [
     "Quadric",
     "Revolution",
     "Sphere",
+    "Superellipsoid",
     "Torus",
     "Triangle",
 ]
@@ -443,6 +445,57 @@ class Implicit(_Primitive):
         text = field.encode()
         shown = {"field": field, "lower": tuple(a), "upper": tuple(b)}
         self._create("crt_implicit_create", material, id, shown, text, len(text), a, b)
+
+
+class Blob(_Primitive):
+    """A Blob is all points at which parts add up to a threshold or more. A part is (center, radius,
+    strength), a ball, or (start, end, radius, strength) along a line. With the share s of the
+    radius that a point is away from it, it adds strength (1 - s^2)^2 where s < 1."""
+
+    parts = _Given[Any]()
+    threshold = _Given[float]()
+
+    def __init__(
+        self,
+        parts: Sequence[Any],
+        threshold: SupportsFloat,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        try:
+            full = [part if len(part) == 4 else (part[0], *part) for part in parts]
+            rows = [[*start, *end, radius, strength] for start, end, radius, strength in full]
+            table = np.array(rows, np.float64).reshape(len(rows), 8)
+        except (TypeError, ValueError, IndexError):
+            raise _arguments.refusal(
+                "Blob: parts", "a list of (center, radius, strength)", parts
+            ) from None
+        level = _arguments.number(threshold, "Blob: threshold")
+        shown = {"parts": f"<{len(rows)}>", "threshold": level}
+        address = table.ctypes.data
+        self._create("crt_blob_create", material, id, shown, address, len(rows), level)
+
+
+class Superellipsoid(_Primitive):
+    """A Superellipsoid is all points at which (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) <= 1. e is
+    `east_west` and n is `north_south`, both from 0.01 to 10. It reaches from -1 to 1."""
+
+    east_west = _Given[float]()
+    north_south = _Given[float]()
+
+    def __init__(
+        self,
+        east_west: SupportsFloat,
+        north_south: SupportsFloat,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        e = _arguments.number(east_west, "Superellipsoid: east_west")
+        n = _arguments.number(north_south, "Superellipsoid: north_south")
+        shown = {"east_west": e, "north_south": n}
+        self._create("crt_superellipsoid_create", material, id, shown, e, n)
 
 
 class Torus(_Primitive):

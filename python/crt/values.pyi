@@ -827,6 +827,8 @@ class RenderStats(_Struct):
     - cutoff_mean (float): light that a pixel may have lost by cutting off paths, if all light were
       white
     - cutoff_max (float)
+    - undecided (int): how often interval arithmetic left open what a ray crosses of an implicit
+      solid, so that the signs on both sides decided it
     """
     threads: int
     pixels: int
@@ -861,3 +863,4 @@ class RenderStats(_Struct):
     unseen_share: float
     cutoff_mean: float
     cutoff_max: float
+    undecided: int

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capi/structs.hpp"
+#include "crt/implicit_shapes.hpp"
 #include "crt/primitives.hpp"
 
 namespace crt::capi {
@@ -162,6 +163,26 @@ crt_status crt_implicit_create(const char* field, size_t length, const double lo
                          .lower = to_vec3(lower, "lower"),
                          .upper = to_vec3(upper, "upper")};
   });
+}
+
+crt_status crt_blob_create(const crt_blob_part* parts, size_t count, double threshold,
+                           crt_entity** out) {
+  return create(out, [&] {
+    if (count > 0) require(parts, "parts");
+    std::vector<crt::BlobPart> given;
+    // One more than is possible is refused, and more are not looked at.
+    for (const crt_blob_part& part : std::span(parts, std::min(count, crt::most_blob_parts + 1))) {
+      given.push_back({.from = to_vec3(part.from, "parts"),
+                       .to = to_vec3(part.to, "parts"),
+                       .radius = part.radius,
+                       .strength = part.strength});
+    }
+    return crt::blob(given, threshold);
+  });
+}
+
+crt_status crt_superellipsoid_create(double east_west, double north_south, crt_entity** out) {
+  return create(out, [&] { return crt::superellipsoid(east_west, north_south); });
 }
 
 crt_status crt_empty_create(crt_entity** out) {

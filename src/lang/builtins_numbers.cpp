@@ -96,9 +96,8 @@ template <FieldFunctionOfTwo function>
 Value of_fields(const Arguments& arguments) {
   Value result = arguments.field(0);
   for (std::size_t i = 1; i < arguments.size(); ++i) {
-    result = make_field(arguments.context, arguments.call, [&] {
-      return function(std::get<Field>(result), arguments.field(i));
-    });
+    result = make_field(arguments.context, arguments.call,
+                        [&] { return function(std::get<Field>(result), arguments.field(i)); });
   }
   return result;
 }
@@ -116,7 +115,7 @@ Value power(const Arguments& arguments) {
 /// Returns the least or greatest argument: an Integer if all are Integers, else a Float.
 template <bool want_greatest>
 Value extreme(const Arguments& arguments) {
-  if (arguments.any_field()) return of_fields<want_greatest ? crt::max : crt::min>(arguments);
+  if (arguments.any_field()) return of_fields < want_greatest ? crt::max : crt::min > (arguments);
   const bool integers = arguments.all_integers();
   Value best = integers ? arguments[0] : arguments.number(0);
   for (std::size_t i = 1; i < arguments.size(); ++i) {

@@ -106,11 +106,11 @@ std::vector<ObjectType> field_objects() {
                         required("upper", &Implicit::upper),
                         attribute("material", &Implicit::material, "a grey of 0.5")},
                        finish_implicit),
-      object<BlobOfScript>("Blob",
-                           {required("parts", &BlobOfScript::parts),
-                            required("threshold", &BlobOfScript::threshold),
-                            attribute("material", &BlobOfScript::material, "a grey of 0.5")},
-                           finish_blob),
+      object<BlobOfScript>(
+          "Blob",
+          {required("parts", &BlobOfScript::parts), required("threshold", &BlobOfScript::threshold),
+           attribute("material", &BlobOfScript::material, "a grey of 0.5")},
+          finish_blob),
       object<SuperellipsoidOfScript>(
           "Superellipsoid",
           {required("eastwest", &SuperellipsoidOfScript::east_west),

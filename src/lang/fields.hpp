@@ -1,5 +1,5 @@
-// Where a field is asked for, x, y and z are values of the type Field, and so is what is computed of
-// them. A number counts as a field.
+// Where a field is asked for, x, y and z are values of the type Field, and so is what is computed
+// of them. A number counts as a field.
 #pragma once
 
 #include <optional>

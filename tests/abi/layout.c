@@ -220,6 +220,12 @@ AT(crt_prepare_options, poll, 8);
 AT(crt_prepare_options, poll_user, 16);
 AT(crt_prepare_options, max_primitives, 24);
 
+SIZE(crt_blob_part, 64);
+AT(crt_blob_part, from, 0);
+AT(crt_blob_part, to, 24);
+AT(crt_blob_part, radius, 48);
+AT(crt_blob_part, strength, 56);
+
 SIZE(crt_render_stats, 272);
 AT(crt_render_stats, struct_size, 0);
 AT(crt_render_stats, threads, 4);

@@ -3,47 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "support.hpp"
+#include "wrong_arguments.hpp"
 
 using namespace crt::test;
-
-namespace {
-
-/// A Wrong is one call with one thing wrong, and the name that the message must have.
-struct Wrong {
-  std::string argument;
-  std::function<crt_status()> call;
-};
-
-void check_all(const std::vector<Wrong>& calls) {
-  for (const Wrong& wrong : calls) {
-    INFO(wrong.argument);
-    CHECK(wrong.call() == CRT_ERROR_INVALID_ARGUMENT);
-    INFO(message());
-    CHECK(says(wrong.argument));
-  }
-}
-
-const Numbers zero = {0, 0, 0};
-const Numbers one = {1, 1, 1};
-const Numbers up = {0, 1, 0};
-
-ProfileHandle square_profile() {
-  ProfileHandle profile = new_profile();
-  CHECK(crt_profile_move_to(profile.get(), 0, 0) == CRT_OK);
-  CHECK(crt_profile_line_to(profile.get(), 1, 0) == CRT_OK);
-  CHECK(crt_profile_line_to(profile.get(), 1, 1) == CRT_OK);
-  CHECK(crt_profile_line_to(profile.get(), 0, 1) == CRT_OK);
-  return profile;
-}
-
-/// Returns the indices of the only triangle of a mesh.
-const std::uint32_t* triangle_indices() {
-  static constexpr std::uint32_t indices[] = {0, 1, 2};
-  return indices;
-}
-
-}  // namespace
 
 TEST_CASE("every pointer that is needed is refused if it is NULL, with its name") {
   const SceneHandle scene = small_scene();
@@ -73,6 +35,8 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_mesh_init(&mesh, sizeof mesh);
   mesh.vertex_count = 1;
   const double heights[4] = {0.5, 1, 0, 0.25};
+  const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
+  const std::vector<crt_blob_part> many_parts(1025, blob_part);
 
   check_all({
       {"out", [&] { return crt_sphere_create(z, 1, nullptr); }},
@@ -115,6 +79,14 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"upper", [&] { return crt_implicit_create("x", 1, z, nullptr, &entity); }},
       {"upper", [&] { return crt_implicit_create("x", 1, o, z, &entity); }},
       {"out", [&] { return crt_implicit_create("x", 1, z, o, nullptr); }},
+      {"parts", [&] { return crt_blob_create(nullptr, 1, 0.5, &entity); }},
+      {"parts", [&] { return crt_blob_create(nullptr, 0, 0.5, &entity); }},
+      {"parts", [&] { return crt_blob_create(many_parts.data(), many_parts.size(), 1, &entity); }},
+      {"threshold", [&] { return crt_blob_create(&blob_part, 1, 0, &entity); }},
+      {"out", [&] { return crt_blob_create(&blob_part, 1, 0.5, nullptr); }},
+      {"east_west", [&] { return crt_superellipsoid_create(0, 1, &entity); }},
+      {"north_south", [&] { return crt_superellipsoid_create(1, 11, &entity); }},
+      {"out", [&] { return crt_superellipsoid_create(1, 1, nullptr); }},
       {"axis", [&] { return crt_torus_create(z, nullptr, 1, 0.1, &entity); }},
       {"center", [&] { return crt_disc_create(nullptr, o, 1, &entity); }},
       {"c", [&] { return crt_triangle_create(z, o, nullptr, &entity); }},
@@ -245,139 +217,6 @@ TEST_CASE("what has no status answers NULL with nothing") {
   crt_diagnostics_release(nullptr);
   CHECK(crt_profile_retain(nullptr) == nullptr);
   crt_profile_release(nullptr);
-}
-
-TEST_CASE("a number that is not finite is refused in every place, with its name") {
-  const EntityHandle ball = sphere(zero, 1);
-  const SceneHandle scene = new_scene();
-  const double heights[4] = {0.5, 1, 0, 0.25};
-  const ProfileHandle square = square_profile();
-  for (const double bad : {not_a_number, infinity, -infinity}) {
-    for (int axis = 0; axis < 3; ++axis) {
-      Numbers v = {1, 2, 3};
-      v[static_cast<std::size_t>(axis)] = bad;
-      crt_entity* out = nullptr;
-      const double* const p = v.data();
-      const double* const z = zero.data();
-      const double* const u = up.data();
-      std::array<double, 9> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-      corners[static_cast<std::size_t>(axis) + 3] = bad;
-      check_all({
-          {"center", [&] { return crt_sphere_create(p, 1, &out); }},
-          {"corner_a", [&] { return crt_box_create(p, z, &out); }},
-          {"corner_b", [&] { return crt_box_create(z, p, &out); }},
-          {"normal", [&] { return crt_plane_create(p, z, &out); }},
-          {"position", [&] { return crt_plane_create(u, p, &out); }},
-          {"direction", [&] { return crt_half_plane_create(u, z, p, &out); }},
-          {"from", [&] { return crt_cylinder_create(p, z, 1, &out); }},
-          {"to", [&] { return crt_cone_create(z, p, 1, 0, &out); }},
-          {"from", [&] { return crt_capsule_create(p, z, 1, &out); }},
-          {"from", [&] { return crt_extrusion_create(square.get(), p, z, &out); }},
-          {"to", [&] { return crt_extrusion_create(square.get(), z, p, &out); }},
-          {"from", [&] { return crt_revolution_create(square.get(), p, z, 1, &out); }},
-          {"to", [&] { return crt_revolution_create(square.get(), z, p, 1, &out); }},
-          {"corner_a", [&] { return crt_height_field_create(heights, 2, 2, p, z, &out); }},
-          {"corner_b", [&] { return crt_height_field_create(heights, 2, 2, z, p, &out); }},
-          {"heights", [&] { return crt_height_field_create(corners.data(), 3, 2, z, u, &out); }},
-          {"squares", [&] { return crt_quadric_create(p, z, u, -1, &out); }},
-          {"products", [&] { return crt_quadric_create(u, p, z, -1, &out); }},
-          {"linear", [&] { return crt_quadric_create(u, z, p, -1, &out); }},
-          {"constant", [&] { return crt_quadric_create(u, z, z, p[0], &out); }},
-          {"lower", [&] { return crt_implicit_create("x", 1, p, z, &out); }},
-          {"upper", [&] { return crt_implicit_create("x", 1, z, p, &out); }},
-          {"axis", [&] { return crt_torus_create(z, p, 1, 0.1, &out); }},
-          {"normal", [&] { return crt_disc_create(z, p, 1, &out); }},
-          {"b", [&] { return crt_triangle_create(z, p, u, &out); }},
-          {"positions",
-           [&] { return crt_mesh_create(corners.data(), 3, triangle_indices(), 1, &out); }},
-      });
-      CHECK(out == nullptr);
-    }
-    crt_entity* out = nullptr;
-    std::array<double, 12> affine = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, bad};
-    crt_light light;
-    crt_light_init(&light, sizeof light);
-    light.falloff = bad;
-    crt_camera camera;
-    crt_camera_init(&camera, sizeof camera);
-    camera.roll = bad;
-    crt_settings settings;
-    crt_settings_init(&settings, sizeof settings);
-    settings.gamma = bad;
-    crt_background background;
-    crt_background_init(&background, sizeof background);
-    background.color[1] = bad;
-    crt_material material;
-    crt_material_init(&material, sizeof material);
-    material.absorption[2] = bad;
-    crt_script_options options;
-    crt_script_options_init(&options, sizeof options);
-    options.t = bad;
-    crt_scene* made_scene = nullptr;
-    check_all({
-        {"radius", [&] { return crt_sphere_create(zero.data(), bad, &out); }},
-        {"radius", [&] { return crt_cylinder_create(zero.data(), up.data(), bad, &out); }},
-        {"radius2", [&] { return crt_cone_create(zero.data(), up.data(), 1, bad, &out); }},
-        {"thickness", [&] { return crt_torus_create(zero.data(), up.data(), 1, bad, &out); }},
-        {"affine", [&] { return crt_entity_with_transform(ball.get(), affine.data(), &out); }},
-        {"falloff", [&] { return crt_scene_add_light(scene.get(), &light); }},
-        {"roll", [&] { return crt_scene_set_camera(scene.get(), &camera); }},
-        {"gamma", [&] { return crt_scene_set_settings(scene.get(), &settings); }},
-        {"color", [&] { return crt_scene_set_background(scene.get(), &background); }},
-        {"absorption", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},
-        {"t", [&] { return crt_scene_from_script("", 0, "x", &options, nullptr, &made_scene); }},
-    });
-    CHECK(out == nullptr);
-  }
-  CHECK(crt_scene_light_count(scene.get()) == 0);
-}
-
-TEST_CASE("a number that no enumeration has is refused, with the field's name") {
-  const SceneHandle scene = new_scene();
-  const EntityHandle ball = sphere(zero, 1);
-  for (const std::int32_t bad : {-1, 1000, std::numeric_limits<std::int32_t>::min()}) {
-    crt_light light;
-    crt_light_init(&light, sizeof light);
-    light.type = bad;
-    crt_camera projection;
-    crt_camera_init(&projection, sizeof projection);
-    crt_camera aperture = projection;
-    projection.projection = bad;
-    aperture.aperture_shape = bad;
-    crt_background background;
-    crt_background_init(&background, sizeof background);
-    background.type = bad;
-    crt_settings settings;
-    crt_settings_init(&settings, sizeof settings);
-    settings.falloff_model = bad;
-    crt_settings precise;
-    crt_settings_init(&precise, sizeof precise);
-    precise.precision = bad;
-    crt_pattern pattern;
-    crt_pattern_init(&pattern, sizeof pattern);
-    pattern.type = bad;
-    crt_material material;
-    crt_material_init(&material, sizeof material);
-    material.pattern = &pattern;
-    crt_material bumpy = material;
-    bumpy.pattern = nullptr;
-    bumpy.bump = &pattern;
-    crt_entity* out = nullptr;
-    check_all({
-        {"type", [&] { return crt_scene_add_light(scene.get(), &light); }},
-        {"projection", [&] { return crt_scene_set_camera(scene.get(), &projection); }},
-        {"aperture_shape", [&] { return crt_scene_set_camera(scene.get(), &aperture); }},
-        {"type", [&] { return crt_scene_set_background(scene.get(), &background); }},
-        {"falloff_model", [&] { return crt_scene_set_settings(scene.get(), &settings); }},
-        {"precision", [&] { return crt_scene_set_settings(scene.get(), &precise); }},
-        {"type", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},
-        {"type", [&] { return crt_entity_with_material(ball.get(), &bumpy, &out); }},
-        {"type", [&] { return crt_light_init_type(&light, sizeof light, bad); }},
-        {"type", [&] { return crt_pattern_init_type(&pattern, sizeof pattern, bad); }},
-    });
-    CHECK(std::string(crt_status_string(static_cast<crt_status>((bad & 0x3f) | 0x40))) ==
-          "unknown");
-  }
 }
 
 TEST_CASE("counts and strides that no memory has are refused before anything is touched") {

@@ -96,7 +96,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(16);
+  const std::uint32_t kind = input_.below(18);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -154,6 +154,15 @@ void Session::make_primitive() {
         const std::string_view field = fields[input_.below(fields.size())];
         return crt_implicit_create(field.data(), field.size(), b.data(), c.data(), out);
       }
+      case 15: {
+        const crt_blob_part parts[2] = {
+            {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}, r, s},
+            {{c[0], c[1], c[2]}, {c[0], c[1], c[2]}, s, r},
+        };
+        return crt_blob_create(parts, input_.below(3), 0.5, out);
+      }
+      case 16:
+        return crt_superellipsoid_create(r, s, out);
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};

@@ -34,6 +34,7 @@ TEST_CASE_FIXTURE(Fixture, "statistics tell seconds, rays, counters and settings
   CHECK(stats["settings"]["falloffmodel"].string == "path");
   CHECK(stats["settings"]["precision"].string == "standard");
   CHECK(stats["counters"]["escalations"].number == 0);
+  CHECK(stats["counters"]["undecided"].number == 0);
   CHECK(stats["script"].string == "ball.crt");
   CHECK(stats["output"].string == "ball.png");
   for (const char* stage : {"parse", "prepare", "trace", "write"}) {
@@ -47,6 +48,27 @@ TEST_CASE_FIXTURE(Fixture, "statistics tell seconds, rays, counters and settings
   CHECK(stats["counters"]["intersection_tests"].number > 0);
   CHECK(stats["version"].kind == Json::Kind::string);
   CHECK_FALSE(stats.has("frame"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "statistics count rays along which a field could not be decided") {
+  const std::string camera =
+      "Settings { width -> 16 height -> 12 camera -> Camera { position -> vec3(0.5, 1, -5) "
+      "pointing -> vec3(0, 0, 0) } }\n";
+  const auto undecided = [&](const std::string& field, const std::vector<std::string>& more) {
+    folder.write("field.crt", camera + "Scene { Implicit { field -> " + field +
+                                  " lower -> vec3(-1, -1, -1) upper -> vec3(1, 1, 1) } }");
+    std::vector<std::string> arguments = {"render", "field.crt", "--stats", "field.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome run = run_crt(folder, arguments);
+    REQUIRE_MESSAGE(run.exit_code == 0, run.err);
+    return parse_json(folder.read("field.json"))["counters"]["undecided"].number;
+  };
+  for (const std::vector<std::string>& tier :
+       {std::vector<std::string>{}, {"--precision", "exact"}}) {
+    CHECK(undecided("x ** 2 + y ** 2 + z ** 2 - 1", tier) == 0);
+    // The pole is no root that has a slope.
+    CHECK(undecided("-1 / z", tier) > 0);
+  }
 }
 
 TEST_CASE_FIXTURE(

@@ -8,11 +8,13 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/geometry/implicit/field_search.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
 #include "geometry/exact_tools.hpp"
+#include "geometry/field_tools.hpp"
 #include "geometry/oracle.hpp"
 #include "geometry/random_fields.hpp"
 
@@ -20,10 +22,6 @@ using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-const Field x = Field::x();
-const Field y = Field::y();
-const Field z = Field::z();
 
 Field squared_distance(const Vec3& from) {
   return pow(x - from.x, 2) + pow(y - from.y, 2) + pow(z - from.z, 2);
@@ -35,62 +33,19 @@ Subject random_ball(Random& random) {
   const Vec3 center = random.in_cube() * (radius * random.power_of_ten(-1, 1));
   const Field f = squared_distance(center) - radius * radius;
   const Real square = Real{radius * radius};  // rounded, as in the field
-  return {.primitive = Implicit{.field = f,
-                                .lower = center - Vec3(2 * radius),
-                                .upper = center + Vec3(2 * radius)},
-          .center = center,
-          .size = radius,
-          .candidates =
-              [=](const RealRay& ray) {
-                const RealVec p = ray.origin - RealVec(center);
-                return quadratic_roots(dot(ray.direction, ray.direction), dot(p, ray.direction),
-                                       dot(p, p) - square);
-              },
-          .field =
-              [=](const RealVec& p) {
-                return length(p - RealVec(center)) - square_root(square);
-              }};
-}
-
-core::CrossingList crossings(const Implicit& implicit, const core::ObjectRay& ray) {
-  core::CrossingList result;
-  core::make_shape(implicit)->crossings(ray, result);
-  return result;
-}
-
-core::ObjectRay random_ray(Random& random, double reach) {
-  const Vec3 aim = reach * random.in_cube();
-  const Vec3 direction = random.direction() * random.power_of_ten(-1, 1);
-  return {.origin = aim - random.uniform(-1, 6) * reach * direction, .direction = direction};
-}
-
-/// Requires that a field has the crossings of another primitive, where that is within its box.
-void check_against(const Implicit& implicit, const Primitive& other, int count) {
-  Random random(11);
-  int disputed = 0;
-  int found = 0;
-  for (int i = 0; i < count; ++i) {
-    const core::ObjectRay ray = random_ray(random, 1.5);
-    const core::CrossingList truth =
-        exact_crossings(other, Transform{}, ray.origin, ray.direction);
-    for (const core::CrossingList& list :
-         {crossings(implicit, ray),
-          exact_crossings(implicit, Transform{}, ray.origin, ray.direction)}) {
-      if (list.size() != truth.size()) {
-        ++disputed;
-        continue;
-      }
-      for (std::size_t k = 0; k < list.size(); ++k) {
-        ++found;
-        REQUIRE(list[k].entering == truth[k].entering);
-        const double off = (list[k].t - truth[k].t) + (list[k].t_low - truth[k].t_low);
-        REQUIRE(std::abs(off) <= list[k].error + truth[k].error);
-        REQUIRE(list[k].error <= 1e-6);
-      }
-    }
-  }
-  CHECK(found > count / 4);
-  CHECK(disputed * 1000 < count);
+  return {
+      .primitive =
+          Implicit{
+              .field = f, .lower = center - Vec3(2 * radius), .upper = center + Vec3(2 * radius)},
+      .center = center,
+      .size = radius,
+      .candidates =
+          [=](const RealRay& ray) {
+            const RealVec p = ray.origin - RealVec(center);
+            return quadratic_roots(dot(ray.direction, ray.direction), dot(p, ray.direction),
+                                   dot(p, p) - square);
+          },
+      .field = [=](const RealVec& p) { return length(p - RealVec(center)) - square_root(square); }};
 }
 
 std::string fault(const Implicit& implicit) {
@@ -177,7 +132,8 @@ TEST_CASE("implicit: the faces of the box are those of a Box, to the bit") {
 
 TEST_CASE("implicit: a field that is 0 in a face of the box leaves the face to the box") {
   const Implicit slab{.field = z - 1, .lower = Vec3(-1), .upper = Vec3(1)};
-  const core::CrossingList list = crossings(slab, {.origin = {0.3, 0.2, 5}, .direction = {0, 0, -1}});
+  const core::CrossingList list =
+      crossings(slab, {.origin = {0.3, 0.2, 5}, .direction = {0, 0, -1}});
   REQUIRE(list.size() == 2);
   CHECK(list[0].t == 4);
   CHECK(list[0].face == 6);
@@ -239,8 +195,7 @@ TEST_CASE("implicit: wild fields are entered and left by turns, as f says where 
         REQUIRE(list[k].entering == (k % 2 == 0));
         REQUIRE(std::isfinite(list[k].error));
         if (k > 0) REQUIRE(list[k - 1].t <= list[k].t);
-        const core::SurfacePoint point =
-            core::make_shape(implicit)->surface_point(ray, list[k]);
+        const core::SurfacePoint point = core::make_shape(implicit)->surface_point(ray, list[k]);
         REQUIRE(std::abs(glm::length(point.normal) - 1) < 1e-14);
       }
       if (list.undecided > 0) continue;
@@ -332,7 +287,7 @@ TEST_CASE("implicit: normals follow the gradient, and face the ray where there i
   CHECK(shape->surface_point(ray, list[0]).normal == Vec3(1, 0, 0));
 }
 
-TEST_CASE("implicit: many roots on one line are told apart") {
+TEST_CASE("implicit: many roots on one line are separated") {
   const core::CrossingList list =
       crossings({sin(100 * x), Vec3(-1), Vec3(1)}, {{-2, 0.25, 0}, {}, {1, 0, 0}});
   REQUIRE(list.size() == 64);

@@ -81,26 +81,36 @@ TEST_CASE("the four operations hold what their operands allow") {
 TEST_CASE("functions hold the true values of every number of an interval") {
   using Long = long double;
   check_range([](auto x) { return square(x); }, [](Long x) { return x * x; });
-  check_range(square_root, [](Long x) { return std::sqrt(x); }, 0);
-  check_range(exponential, [](Long x) { return std::exp(x); }, -800, 700);
-  check_range(logarithm, [](Long x) { return std::log(x); }, 1e-300);
+  check_range(
+      square_root, [](Long x) { return std::sqrt(x); }, 0);
+  check_range(
+      exponential, [](Long x) { return std::exp(x); }, -800, 700);
+  check_range(
+      logarithm, [](Long x) { return std::log(x); }, 1e-300);
   check_range(sine, [](Long x) { return std::sin(x); });
   check_range(cosine, [](Long x) { return std::cos(x); });
   const auto middle = [](const Interval& x) {
     const double center = x.lo + 0.5 * (x.hi - x.lo);
     return Interval{center, center};
   };
-  check_range([&](auto x) { return wave(middle(x), x).sine; },
-              [](Long x) { return std::sin(x); });
+  check_range([&](auto x) { return wave(middle(x), x).sine; }, [](Long x) { return std::sin(x); });
   check_range([&](auto x) { return wave(middle(x), x).cosine; },
               [](Long x) { return std::cos(x); });
-  check_range([](auto x) { return wave(x, {x.lo - 0.01, x.hi + 0.05}).sine_in_middle; },
-              [](Long x) { return std::sin(x); });
-  check_range([](auto x) { return wave(x, {x.lo - 0.01, x.hi + 0.05}).cosine_in_middle; },
-              [](Long x) { return std::cos(x); });
+  check_range(
+      [](auto x) {
+        return wave(x, {x.lo - 0.01, x.hi + 0.05}).sine_in_middle;
+      },
+      [](Long x) { return std::sin(x); });
+  check_range(
+      [](auto x) {
+        return wave(x, {x.lo - 0.01, x.hi + 0.05}).cosine_in_middle;
+      },
+      [](Long x) { return std::cos(x); });
   check_range(tangent, [](Long x) { return std::tan(x); });
-  check_range(arc_sine, [](Long x) { return std::asin(x); }, -1, 1);
-  check_range(arc_cosine, [](Long x) { return std::acos(x); }, -1, 1);
+  check_range(
+      arc_sine, [](Long x) { return std::asin(x); }, -1, 1);
+  check_range(
+      arc_cosine, [](Long x) { return std::acos(x); }, -1, 1);
   check_range(arc_tangent, [](Long x) { return std::atan(x); });
   for (const double n : {2.0, 3.0, 4.0, 7.0, 8.0, 9.0, 12.0}) {
     check_range([n](auto x) { return whole_power(x, n); },
@@ -127,8 +137,8 @@ TEST_CASE("intervals are narrow where functions are smooth, and turns are seen")
 
 TEST_CASE("unbounded intervals stay without NaN") {
   const Interval all = Interval::everything();
-  const std::vector<Interval> some = {all, {0, 0}, {0, HUGE_VAL}, {-HUGE_VAL, 0}, {-1e308, 1e308},
-                                      {1e-308, 1e308}};
+  const std::vector<Interval> some = {
+      all, {0, 0}, {0, HUGE_VAL}, {-HUGE_VAL, 0}, {-1e308, 1e308}, {1e-308, 1e308}};
   for (const Interval& a : some) {
     for (const Interval& b : some) {
       for (const Interval& c : {a + b, a - b, a * b, a / b, square(a), exponential(a), sine(a),

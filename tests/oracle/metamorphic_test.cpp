@@ -9,8 +9,8 @@
 #include "crt/query.hpp"
 #include "geometry/scaled_mesh.hpp"
 #include "geometry/scaled_profile.hpp"
-#include "oracle/number_vec.hpp"
 #include "oracle/measure.hpp"
+#include "oracle/number_vec.hpp"
 #include "oracle/prepared_tree.hpp"
 
 using namespace crt;

@@ -45,6 +45,8 @@ class Primitives(unittest.TestCase):
             (crt.Quadric((0, 0, 0), (0, 2, 0), (0, 1, -1), 0), []),
             (crt.Quadric((-1, 0, 0), (2, 0, 0), (0, 1, 0), 4), [x - 2, x + 2]),
             (crt.Implicit("y ** 2 - 4", (-1, -1, -1), (1, 1, 1)), [x - 1, x + 1]),
+            (crt.Blob([((0, 0, 0), 2, 2)], 9 / 8), [x - 1, x + 1]),
+            (crt.Superellipsoid(1, 1), [x - 1, x + 1]),
             (crt.Disc((1, 0, 0), (1, 0, 0), 1), [x + 1]),
             (crt.Triangle((1, -1, -1), (1, 2, -1), (1, 0, 2)), [x + 1]),
             (crt.Mesh([[1, -1, -1], [1, 2, -1], [1, 0, 2]], [[0, 1, 2]]), [x + 1]),
@@ -121,6 +123,18 @@ class Primitives(unittest.TestCase):
             crt.Implicit(5, (-1, -1, -1), (1, 1, 1))
         with self.assertRaises(crt.Error):
             crt.Implicit("x", (1, 1, 1), (-1, -1, -1))
+
+    def test_blobs_and_superellipsoids_check_their_numbers(self):
+        line = crt.Blob([((0, 0, 0), (1, 0, 0), 1, 1), ((0, 1, 0), 1, -0.5)], 0.5)
+        self.assertTrue(line.is_solid)
+        for wrong in (5, [1], [((0, 0, 0), 1)], [((0, 0), 1, 1)], [("a", 1, 1)]):
+            with self.assertRaises(TypeError):
+                crt.Blob(wrong, 0.5)
+        for parts, threshold in (([], 1), ([((0, 0, 0), 1, 1)], 0), ([((0, 0, 0), 0, 1)], 1)):
+            with self.assertRaises(crt.Error):
+                crt.Blob(parts, threshold)
+        with self.assertRaises(crt.Error):
+            crt.Superellipsoid(0, 1)
 
     def test_a_mesh_file_is_read_and_a_broken_one_says_where(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,7 +1,6 @@
 #include "core/math/interval.hpp"
 
 #include <numbers>
-#include <utility>
 
 namespace crt::core {
 
@@ -15,6 +14,23 @@ Interval range_of_wave(const Interval& a, double at_low, double at_high, double 
   result.lo = may_contain_turn(a, greatest + pi, 2 * pi) ? -1 : std::max(result.lo, -1.0);
   result.hi = may_contain_turn(a, greatest, 2 * pi) ? 1 : std::min(result.hi, 1.0);
   return result;
+}
+
+/// Returns the range of sine or cosine near a centre, where the C library has given its value and
+/// its slope. No second derivative is above 1.
+Interval series(double value, double slope, const Interval& x, double center) {
+  constexpr double roundings = 0x1p-49;
+  constexpr double more_than_rounding = 1 + 0x1p-40;
+  const double off = x.lo + 0.5 * x.width() - center;
+  const double reach =
+      more_than_rounding * (0.5 * x.width() + 0x1p-51 * (std::abs(center) + std::abs(off)));
+  const double farthest = std::abs(off) + reach;
+  const double change = slope * off;
+  const double nearest = value + change;
+  const double error = more_than_rounding * (roundings * (std::abs(value) + std::abs(change)) +
+                                             std::abs(slope) * reach + 0.5 * farthest * farthest) +
+                       std::numeric_limits<double>::min();
+  return {std::max(nearest - error, -1.0), std::min(nearest + error, 1.0)};
 }
 
 /// Returns x >= 0 to a power of at least 1 that is whole, within four units in the last place.
@@ -69,23 +85,12 @@ Wave wave(const Interval& middle, const Interval& all) {
   const Interval& about = is_narrow ? all : middle;
   const double center = about.lo + 0.5 * about.width();
   if (!(about.width() <= widest)) return {{-1, 1}, {-1, 1}, sine(all), cosine(all)};
-  const Interval s = around(std::sin(center), std::sin(center));
-  const Interval c = around(std::cos(center), std::cos(center));
-  const auto of = [&](const Interval& x) {
-    const Interval off = x - Interval::of(center);
-    const double rest = rounded_up(0.5 * off.magnitude() * off.magnitude());
-    const Interval remainder = {-rest, rest};
-    return std::pair{s + c * off + remainder, c - s * off + remainder};
-  };
-  const auto within_one = [](const Interval& x) {
-    return Interval{std::max(x.lo, -1.0), std::min(x.hi, 1.0)};
-  };
-  const auto [sine_in_middle, cosine_in_middle] = of(middle);
-  Wave result = {within_one(sine_in_middle), within_one(cosine_in_middle), {}, {}};
+  const double s = std::sin(center);
+  const double c = std::cos(center);
+  Wave result = {series(s, c, middle, center), series(c, -s, middle, center), {}, {}};
   if (is_narrow) {
-    const auto [sine_of_all, cosine_of_all] = of(all);
-    result.sine = within_one(sine_of_all);
-    result.cosine = within_one(cosine_of_all);
+    result.sine = series(s, c, all, center);
+    result.cosine = series(c, -s, all, center);
   } else {
     result.sine = sine(all);
     result.cosine = cosine(all);

@@ -1,12 +1,11 @@
 // Arithmetic with intervals is rounded outwards: a result surely holds all that its operands allow.
 //
-// A bound is computed in round-to-nearest and then moved outwards by more than its rounding. For the
-// functions of the C library that is four units in the last place, of which they take one at most
-// (glibc's manual, "Known Maximum Errors in Math Functions").
+// A bound is computed in round-to-nearest and then moved outwards by more than its rounding. For
+// the functions of the C library that is four units in the last place, of which they take one at
+// most (glibc's manual, "Known Maximum Errors in Math Functions").
 //
-// Source: Rump, Fast and parallel interval arithmetic, 1999; Moore, Kearfott, Cloud, Introduction to
-// interval analysis, 2009.
-// Tests: tests/math/interval_test.cpp
+// Source: Rump, Fast and parallel interval arithmetic, 1999; Moore, Kearfott, Cloud, Introduction
+// to interval analysis, 2009. Tests: tests/math/interval_test.cpp
 #pragma once
 
 #include <algorithm>

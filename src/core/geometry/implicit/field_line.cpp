@@ -130,8 +130,7 @@ Triple Part::of_one(FieldOperation operation, double number, const Triple& a) {
     case FieldOperation::power: {
       const Triple b = within(a, 0, infinity);
       const Interval all = power(b.all, number);
-      const Interval rate = number > 1 ? power(b.all, number - 1)
-                                       : one / power(b.all, 1 - number);
+      const Interval rate = number > 1 ? power(b.all, number - 1) : one / power(b.all, 1 - number);
       return {power(b.middle, number), all, Interval::of(number) * rate * b.slope};
     }
     case FieldOperation::square_root: {
@@ -166,7 +165,8 @@ Triple Part::of_one(FieldOperation operation, double number, const Triple& a) {
       const Triple b = within(a, -1, 1);
       const Interval rest = one - square(b.all);
       const Interval slope = b.slope / square_root({std::max(0.0, rest.lo), rest.hi});
-      if (operation == FieldOperation::arc_sine) return {arc_sine(b.middle), arc_sine(b.all), slope};
+      if (operation == FieldOperation::arc_sine)
+        return {arc_sine(b.middle), arc_sine(b.all), slope};
       return {arc_cosine(b.middle), arc_cosine(b.all), -slope};
     }
     case FieldOperation::arc_tangent:
@@ -251,11 +251,7 @@ FieldLine::Values FieldLine::evaluate(double from, double to) const {
         break;
     }
     if (part.is_undefined) {
-      return {.middle = {},
-              .all = {},
-              .slope = {},
-              .may_be_undefined = true,
-              .is_undefined = true};
+      return {.middle = {}, .all = {}, .slope = {}, .may_be_undefined = true, .is_undefined = true};
     }
   }
   part.tighten(*last);

@@ -103,10 +103,10 @@ void assign_registers(std::vector<FieldStep>& steps) {
     if (operands > 1 && b != a && last_use[b] == i) free.push_back(registers[b]);
     if (free.empty()) {
       if (count == FieldProgram::most_registers) {
-        throw Error(ErrorCode::invalid_argument,
-                    fmt::format("field needs more than {} values at a time",
-                                FieldProgram::most_registers),
-                    "field");
+        throw Error(
+            ErrorCode::invalid_argument,
+            fmt::format("field needs more than {} values at a time", FieldProgram::most_registers),
+            "field");
       }
       free.push_back(count++);
     }

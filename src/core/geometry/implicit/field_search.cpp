@@ -92,7 +92,8 @@ void FieldSearch::search(double from, double to) {
       const double middle = FieldLine::middle_of(low, high);
       const double known = known_about_middle(values, high - low);
       open[count++] = {middle + known, high, 0};
-      if (known > 0) open[count++] = {middle - known, middle + known, values.middle.lo > 0 ? 1 : -1};
+      if (known > 0)
+        open[count++] = {middle - known, middle + known, values.middle.lo > 0 ? 1 : -1};
       open[count++] = {low, middle - known, 0};
     }
   }
@@ -110,8 +111,8 @@ FieldSearch::Rest FieldSearch::narrow(double from, double to, FieldLine::Values 
   const bool is_rising = values.slope.lo > 0;
   bool is_passed = false;  // what follows is known to be beyond the root
   while (true) {
-    const Interval root = Interval::of(FieldLine::middle_of(from, to)) -
-                          values.middle / values.slope;
+    const Interval root =
+        Interval::of(FieldLine::middle_of(from, to)) - values.middle / values.slope;
     const int sign_after = is_passed ? (is_rising ? 1 : -1) : 0;
     if (root.hi < from) {
       know(from, !is_rising);

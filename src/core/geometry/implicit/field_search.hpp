@@ -1,10 +1,11 @@
 // Where a line enters and leaves a field (f <= 0) is found by proof, as far as intervals decide.
 //
-// A part of the line is inside or outside if its values have one sign. It has one root if its slopes
-// have one sign, which Newton's iteration for intervals encloses. All other parts are halved. What
-// is left are *gaps* between parts that are surely inside or outside: a root in a few roundings, or
-// what could not be decided. If the line is inside on one side of a gap and outside on the other, it
-// crosses there, and else it does not. So crossings alternate, whatever could not be decided.
+// A part of the line is inside or outside if its values have one sign. It has one root if its
+// slopes have one sign, which Newton's iteration for intervals encloses. All other parts are
+// halved. What is left are *gaps* between parts that are surely inside or outside: a root in a few
+// roundings, or what could not be decided. If the line is inside on one side of a gap and outside
+// on the other, it crosses there, and else it does not. So crossings alternate, whatever could not
+// be decided.
 //
 // Source: Moore, Kearfott, Cloud, Introduction to interval analysis, 2009, chapter 8 (interval
 // Newton method).

@@ -1,8 +1,8 @@
 // An implicit solid is where a field f is at most 0, within a box.
 //
-// Where a line enters and leaves the box is what a Box says, at that one's bits. In between, where f
-// changes its sign is enclosed in interval arithmetic (field_search.hpp). What is inside at an end
-// of that part crosses the box there. A place that cannot be told from the end is at the end.
+// Where a line enters and leaves the box is what a Box says, at that one's bits. In between, where
+// f changes its sign is enclosed in interval arithmetic (field_search.hpp). What is inside at an
+// end of that part crosses the box there. What no proof separates from an end is at the end.
 //
 // Faces: 0 is f = 0. 1 and 2 are across x at the lower and the upper end, 3 and 4 across y, 5 and 6
 // across z: those of a Box, each 1 more.
@@ -62,11 +62,12 @@ struct FieldRay {
   double direction_error = 0;
 };
 
-/// Returns the ray as the box of an implicit solid sees it. A start on the field means nothing there.
+/// Returns the ray as the box of an implicit solid sees it. A start on the field means nothing
+/// there.
 ObjectRay as_box_sees(const ObjectRay& ray);
 
-/// Puts the crossings of an implicit solid, as Shape::crossings() has them, in the place of those of
-/// its box. They are in the list from `first` on, with the ray that the box sees.
+/// Puts the crossings of an implicit solid, as Shape::crossings() has them, in the place of those
+/// of its box. They are in the list from `first` on, with the ray that the box sees.
 bool replace_by_field_crossings(const FieldProgram& program, const FieldRay& field_ray,
                                 std::size_t first, CrossingList& out);
 

@@ -66,6 +66,7 @@ Implicit blob(std::span<const BlobPart> parts, double threshold) {
   if (!(threshold > 0 && threshold <= 1e100)) {
     core::reject("threshold", "must be above 0 and at most 1e100");
   }
+  if (parts.size() > most_blob_parts) core::reject("parts", "are too many for a blob");
   std::vector<Field> fields;
   core::Bounds box;
   for (std::size_t i = 0; i < parts.size(); ++i) {
