@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/mesh/facing.hpp"
+#include "core/geometry/shape.hpp"
 #include "crt/mesh.hpp"
 
 namespace crt::core {
