@@ -25,7 +25,8 @@ class FieldSpan {
   double to;
   bool begins_within;  ///< where it enters need not be known
 
-  FieldSearchLimits limits(const FieldRay& field_ray, const Crossing& enter) const;
+  FieldSearchLimits limits(const FieldProgram& program, const FieldRay& field_ray,
+                           const Crossing& enter) const;
 
  private:
   double scale_;
@@ -60,16 +61,20 @@ FieldSpan::FieldSpan(const FieldRay& field_ray, const Crossing& enter, const Cro
   }
 }
 
-FieldSearchLimits FieldSpan::limits(const FieldRay& field_ray, const Crossing& enter) const {
+FieldSearchLimits FieldSpan::limits(const FieldProgram& program, const FieldRay& field_ray,
+                                    const Crossing& enter) const {
   const ObjectRay& ray = field_ray.ray;
   const double reach = std::max(-from, to);
   double size = reach;
   for (const Interval& component : place) size = std::max(size, component.magnitude());
-  constexpr std::uint32_t most_evaluations = 1024;
-  constexpr std::uint32_t most_of_exact = 8192;
+  constexpr std::size_t most_evaluations = 1024;
+  constexpr std::size_t most_steps = std::size_t{1} << 20;
+  constexpr std::uint32_t more_of_exact = 8;
+  const std::size_t evaluations = std::min(most_evaluations, most_steps / program.steps().size());
   // This is more than the rounding of both ends of a root's interval as t.
   constexpr double margin = 0x1p-48;
-  return {.most_evaluations = field_ray.is_exact ? most_of_exact : most_evaluations,
+  return {.most_evaluations =
+              static_cast<std::uint32_t>(evaluations) * (field_ray.is_exact ? more_of_exact : 1),
           .shortest = 0x1p-52 * size,
           .first = to_x(ray.begin),
           .enough_after = to_x(ray.first_above) + margin * (std::abs(shift_) * scale_ + reach),
@@ -149,7 +154,7 @@ bool replace_by_field_crossings(const FieldProgram& program, const FieldRay& fie
   if (leave.t < ray.begin) return false;
 
   FieldSpan span(field_ray, enter, leave);
-  const FieldSearchLimits limits = span.limits(field_ray, enter);
+  const FieldSearchLimits limits = span.limits(program, field_ray, enter);
   if (on_field && span.to < limits.shortest) {
     span.to = limits.shortest;
     leave.t = span.to_t(span.to).hi;
