@@ -225,7 +225,9 @@ FIELDS = {
             "with Status.LIMIT before it takes any memory. 0 means as many as the memory of the"
             " machine (or container) may be enough for. It counts 1350 bytes for each, or 2700 "
             "in the exact tier, as the largest primitives take; lone spheres take 600. There "
-            "can never be more than 33554432.",
+            "can never be more than 33554432. A solid of several primitives, or a mesh, counts "
+            "once if one entity is placed 16 times or more, and each of its uses as one "
+            "primitive of 512 bytes.",
         ),
     ),
     "crt_script_options": (
