@@ -26,36 +26,36 @@ class Field {
 
   /// These are the coordinates.
   static Field x();
-  static Field y();
-  static Field z();
+  static Field y();  ///< as x()
+  static Field z();  ///< as x()
 
-  friend Field operator-(const Field& a);
-  friend Field operator+(const Field& a, const Field& b);
-  friend Field operator-(const Field& a, const Field& b);
-  friend Field operator*(const Field& a, const Field& b);
-  friend Field operator/(const Field& a, const Field& b);
+  friend Field operator-(const Field& a);                  ///< returns -a
+  friend Field operator+(const Field& a, const Field& b);  ///< returns a + b
+  friend Field operator-(const Field& a, const Field& b);  ///< returns a - b
+  friend Field operator*(const Field& a, const Field& b);  ///< returns a b
+  friend Field operator/(const Field& a, const Field& b);  ///< returns a / b
 
   /// Returns a to the power of a number. If that is not whole, a negative a has none. 0 has one
   /// for exponents above 0. To the power of 0 it is 1.
   friend Field pow(const Field& a, double exponent);
   /// Returns exp(exponent * log(a)), which is defined for a > 0.
   friend Field pow(const Field& a, const Field& exponent);
-  friend Field sqrt(const Field& a);
-  friend Field abs(const Field& a);
-  friend Field min(const Field& a, const Field& b);
-  friend Field max(const Field& a, const Field& b);
-  friend Field sin(const Field& a);
-  friend Field cos(const Field& a);
-  friend Field tan(const Field& a);
-  friend Field asin(const Field& a);
-  friend Field acos(const Field& a);
-  friend Field atan(const Field& a);
+  friend Field sqrt(const Field& a);                 ///< returns the root, which a < 0 has not
+  friend Field abs(const Field& a);                  ///< returns |a|
+  friend Field min(const Field& a, const Field& b);  ///< returns the smaller of both
+  friend Field max(const Field& a, const Field& b);  ///< returns the larger of both
+  friend Field sin(const Field& a);                  ///< takes radians
+  friend Field cos(const Field& a);                  ///< takes radians
+  friend Field tan(const Field& a);                  ///< takes radians
+  friend Field asin(const Field& a);                 ///< is in radians, from -pi / 2 to pi / 2
+  friend Field acos(const Field& a);                 ///< is in radians, from 0 to pi
+  friend Field atan(const Field& a);                 ///< is in radians, from -pi / 2 to pi / 2
   /// Returns the angle of (x, y) from the x axis, from -pi to pi.
   friend Field atan2(const Field& y, const Field& x);
-  friend Field exp(const Field& a);
-  friend Field log(const Field& a);
-  friend Field floor(const Field& a);
-  friend Field ceil(const Field& a);
+  friend Field exp(const Field& a);    ///< returns e to the power of a
+  friend Field log(const Field& a);    ///< returns the natural logarithm
+  friend Field floor(const Field& a);  ///< returns the largest whole number up to a
+  friend Field ceil(const Field& a);   ///< returns the least whole number from a on
   /// Returns the nearest whole number. Halves go away from 0.
   friend Field round(const Field& a);
 
@@ -69,7 +69,7 @@ class Field {
   std::shared_ptr<const core::FieldNode> node_;
 };
 
-// These are declared once more for those who name them.
+/// @cond These are declared once more for those who name them.
 Field operator-(const Field& a);
 Field operator+(const Field& a, const Field& b);
 Field operator-(const Field& a, const Field& b);
@@ -93,7 +93,7 @@ Field log(const Field& a);
 Field floor(const Field& a);
 Field ceil(const Field& a);
 Field round(const Field& a);
-
+/// @endcond
 /// Reads a field from an expression of the CRT language, in which x, y and z are the coordinates:
 /// "x ** 2 + y ** 2 + z ** 2 - 1". It sees the language's functions and constants, and `t` is 0.
 /// Throws Error (script) with what is wrong and where.
