@@ -272,8 +272,8 @@ struct Implicit {
 };
 
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
-using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle,
-                               Capsule, Mesh, Extrusion, Revolution, HeightField, Quadric,
-                               Implicit>;
+using Primitive =
+    std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle, Capsule,
+                 Mesh, Extrusion, Revolution, HeightField, Quadric, Implicit>;
 
 }  // namespace crt

@@ -9,8 +9,8 @@ namespace crt::lang {
 
 std::string_view type_name(const Value& value) {
   constexpr std::array<std::string_view, std::variant_size_v<Value>> names = {
-      "nothing",  "unknown value", "Integer", "Float",  "Boolean",   "Vec3",
-      "Color",    "String",        "List",    "Macro",  "Macro",     "Entity",
+      "nothing",  "unknown value", "Integer", "Float",  "Boolean",    "Vec3",
+      "Color",    "String",        "List",    "Macro",  "Macro",      "Entity",
       "Material", "Pattern",       "Light",   "Camera", "Background", "Field"};
   return names[value.index()];
 }

@@ -49,9 +49,9 @@ TEST_CASE(
   const Extrusion extrusion{.profile = profile_of({rectangle(0, 0, 1, 1)})};
   const Revolution revolution{.profile = extrusion.profile};
   const HeightField field{.heights = make_height_grid({0, 0.5, 1, 0}, 2, 2)};
-  const Primitive all[] = {Sphere{}, Box{},     Plane{},    HalfPlane{}, Cylinder{},
-                           Cone{},   Torus{},   Disc{},     Triangle{},  Capsule{},
-                           mesh,     extrusion, revolution, field,       Quadric{}, Implicit{}};
+  const Primitive all[] = {Sphere{},   Box{},  Plane{},    HalfPlane{}, Cylinder{}, Cone{},
+                           Torus{},    Disc{}, Triangle{}, Capsule{},   mesh,       extrusion,
+                           revolution, field,  Quadric{},  Implicit{}};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
