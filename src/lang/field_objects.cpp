@@ -23,11 +23,9 @@ Value finish_implicit(Implicit implicit, const ObjectSite& site) {
 /// BlobParts are a List of parts as a script has them.
 struct BlobParts {
   std::vector<BlobPart> parts;
-};
 
-constexpr std::string_view type_text(const BlobParts*) {
-  return "List of parts";
-}
+  friend constexpr std::string_view type_text(const BlobParts*) { return "List of parts"; }
+};
 
 /// These are a blob and a superellipsoid as a script has them.
 struct BlobOfScript {

@@ -18,7 +18,7 @@ std::uint64_t primitive_bytes(const CompiledScene& scene) {
   std::uint64_t bytes = bytes_of(scene.placements) + bytes_of(scene.leaves) +
                         bytes_of(scene.face_surfaces) + unlisted_bytes(scene) +
                         bytes_of(scene.objects) + scene.shape_bytes + scene.transforms.bytes() +
-                        bytes_of(scene.instances) + bytes_of(scene.chains);
+                        bytes_of(scene.instances) + scene.chains.capacity() * sizeof(void*);
   for (const auto& prototype : scene.prototypes)
     bytes += sizeof *prototype + primitive_bytes(*prototype);
   return bytes;

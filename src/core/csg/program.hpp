@@ -114,8 +114,8 @@ struct PlacedLeaf {
   const Leaf& leaf;
   const Placement& placement;
 
-  PlacedLeaf(const Leaf& own)
-      : PlacedLeaf(own, *own.placement) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor): a leaf is in its own place
+  PlacedLeaf(const Leaf& own) : PlacedLeaf(own, *own.placement) {}
   PlacedLeaf(const Leaf& of_prototype, const Placement& in_world)
       : leaf(of_prototype), placement(in_world) {}
 };
