@@ -229,17 +229,19 @@ TEST_CASE("rays find the same to the last bit, whether solids share what they ar
 }
 
 TEST_CASE("rays find the same on small instances far from the origin, and on large ones") {
-  struct {
+  struct Place {
     double scale;
     Vec3 offset;
-  } const places[] = {{1, {3e8, -7e8, 1e9}}, {1e-4, {1e3, 0, -1e4}}, {1e9, {1e8, 0, 0}}};
-  for (const auto& [scale, offset] : places) {
+  };
+  const Place places[] = {{1, {3e8, -7e8, 1e9}}, {1e-4, {1e3, 0, -1e4}}, {1e9, {1e8, 0, 0}}};
+  for (const Place& place : places) {
     const auto moved = [&](Scene scene) {
-      for (Entity& entity : scene.entities) entity = entity.transformed(turned(0, scale, offset));
+      for (Entity& entity : scene.entities)
+        entity = entity.transformed(turned(0, place.scale, place.offset));
       return scene;
     };
     check_follows(moved(shared_scene(Precision::standard)),
-                  moved(scene_of_copies(Precision::standard)), 500, scale, offset);
+                  moved(scene_of_copies(Precision::standard)), 500, place.scale, place.offset);
   }
 }
 
