@@ -73,12 +73,14 @@ FieldSearchLimits FieldSpan::limits(const FieldProgram& program, const FieldRay&
   const std::size_t evaluations = std::min(most_evaluations, most_steps / program.steps().size());
   // This is more than the rounding of both ends of a root's interval as t.
   constexpr double margin = 0x1p-48;
+  const double same_place = margin * (std::abs(shift_) * scale_ + reach);
   return {.most_evaluations =
               static_cast<std::uint32_t>(evaluations) * (field_ray.is_exact ? more_of_exact : 1),
           .shortest = 0x1p-52 * size,
           .first = to_x(ray.begin),
-          .enough_after = to_x(ray.first_above) + margin * (std::abs(shift_) * scale_ + reach),
-          .is_enough_inside = !begins_within && ray.is_first_asked(enter)};
+          .enough_after = to_x(ray.first_above) + same_place,
+          .is_enough_inside = !begins_within && ray.is_first_asked(enter),
+          .same_place = same_place};
 }
 
 /// Appends crossings, each where the one before or after it lets it be.

@@ -39,7 +39,8 @@ void FieldSearch::know(double x, bool is_inside) {
     is_known_ = true;
     first_inside_ = is_inside;
     first_gap_ = to - from;
-    has_enough_ = is_inside && limits_.is_enough_inside;
+    last_enter_ = x;
+    is_awaited_ = is_inside && limits_.is_enough_inside;
   } else if (is_inside != last_inside_) {
     if (count_ == most_roots) {
       is_undecided_ = true;
@@ -48,7 +49,16 @@ void FieldSearch::know(double x, bool is_inside) {
     const double middle = FieldLine::middle_of(from, to);
     const double error = rounded_up(std::max(middle - from, to - middle));
     roots_[count_++] = {.x = middle, .error = error, .is_entering = is_inside};
-    has_enough_ = middle - error > limits_.enough_after;
+    const bool is_asked = middle - error > limits_.enough_after;
+    if (is_inside) {
+      last_enter_ = middle;
+      is_awaited_ = is_asked;
+    } else {
+      has_enough_ = (is_asked || is_awaited_) && middle - last_enter_ > limits_.same_place;
+      is_awaited_ = false;
+    }
+  } else if (is_inside && is_awaited_) {
+    has_enough_ = x - last_enter_ > limits_.same_place;
   }
   last_inside_ = is_inside;
 }

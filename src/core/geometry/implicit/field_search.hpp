@@ -37,6 +37,8 @@ struct FieldSearchLimits {
   /// Nothing is asked beyond the first root after this, or at all if the line is inside at once.
   double enough_after = std::numeric_limits<double>::infinity();
   bool is_enough_inside = false;
+  /// A span that is no longer may be none, so that it is not enough.
+  double same_place = 0;
 };
 
 class FieldSearch {
@@ -105,6 +107,8 @@ class FieldSearch {
   bool last_inside_ = false;
   bool is_undecided_ = false;
   bool has_enough_ = false;
+  double last_enter_ = 0;
+  bool is_awaited_ = false;  ///< whether the last entry is enough, once its span is long enough
   bool ignores_inside_ = false;
   // The gap after what is known, if there is one.
   bool has_gap_ = false;
