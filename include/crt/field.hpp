@@ -29,36 +29,6 @@ class Field {
   static Field y();  ///< as x()
   static Field z();  ///< as x()
 
-  friend Field operator-(const Field& a);                  ///< returns -a
-  friend Field operator+(const Field& a, const Field& b);  ///< returns a + b
-  friend Field operator-(const Field& a, const Field& b);  ///< returns a - b
-  friend Field operator*(const Field& a, const Field& b);  ///< returns a b
-  friend Field operator/(const Field& a, const Field& b);  ///< returns a / b
-
-  /// Returns a to the power of a number. If that is not whole, a negative a has none. 0 has one
-  /// for exponents above 0. To the power of 0 it is 1.
-  friend Field pow(const Field& a, double exponent);
-  /// Returns exp(exponent * log(a)), which is defined for a > 0.
-  friend Field pow(const Field& a, const Field& exponent);
-  friend Field sqrt(const Field& a);                 ///< returns the root, which a < 0 has not
-  friend Field abs(const Field& a);                  ///< returns |a|
-  friend Field min(const Field& a, const Field& b);  ///< returns the smaller of both
-  friend Field max(const Field& a, const Field& b);  ///< returns the larger of both
-  friend Field sin(const Field& a);                  ///< takes radians
-  friend Field cos(const Field& a);                  ///< takes radians
-  friend Field tan(const Field& a);                  ///< takes radians
-  friend Field asin(const Field& a);                 ///< is in radians, from -pi / 2 to pi / 2
-  friend Field acos(const Field& a);                 ///< is in radians, from 0 to pi
-  friend Field atan(const Field& a);                 ///< is in radians, from -pi / 2 to pi / 2
-  /// Returns the angle of (x, y) from the x axis, from -pi to pi.
-  friend Field atan2(const Field& y, const Field& x);
-  friend Field exp(const Field& a);    ///< returns e to the power of a
-  friend Field log(const Field& a);    ///< returns the natural logarithm
-  friend Field floor(const Field& a);  ///< returns the largest whole number up to a
-  friend Field ceil(const Field& a);   ///< returns the least whole number from a on
-  /// Returns the nearest whole number. Halves go away from 0.
-  friend Field round(const Field& a);
-
   /// Returns what it is made of, which only the library knows.
   const core::FieldNode& node() const { return *node_; }
 
@@ -69,31 +39,54 @@ class Field {
   std::shared_ptr<const core::FieldNode> node_;
 };
 
-/// @cond These are declared once more for those who name them.
+/// Returns -a.
 Field operator-(const Field& a);
+/// Returns a + b.
 Field operator+(const Field& a, const Field& b);
+/// Returns a - b.
 Field operator-(const Field& a, const Field& b);
+/// Returns a times b.
 Field operator*(const Field& a, const Field& b);
+/// Returns a / b, which b = 0 has not.
 Field operator/(const Field& a, const Field& b);
+/// Returns a to the power of a number. If that is not whole, a negative a has none. 0 has one for
+/// exponents above 0. To the power of 0 it is 1.
 Field pow(const Field& a, double exponent);
+/// Returns exp(exponent * log(a)), which is defined for a > 0.
 Field pow(const Field& a, const Field& exponent);
+/// Returns the square root, which a < 0 has not.
 Field sqrt(const Field& a);
+/// Returns |a|.
 Field abs(const Field& a);
+/// Returns the smaller of both.
 Field min(const Field& a, const Field& b);
+/// Returns the larger of both.
 Field max(const Field& a, const Field& b);
+/// Returns the sine of an angle in radians.
 Field sin(const Field& a);
+/// Returns the cosine of an angle in radians.
 Field cos(const Field& a);
+/// Returns the tangent of an angle in radians.
 Field tan(const Field& a);
+/// Returns the angle with that sine, from -pi / 2 to pi / 2.
 Field asin(const Field& a);
+/// Returns the angle with that cosine, from 0 to pi.
 Field acos(const Field& a);
+/// Returns the angle with that tangent, from -pi / 2 to pi / 2.
 Field atan(const Field& a);
+/// Returns the angle of (x, y) from the x axis, from -pi to pi.
 Field atan2(const Field& y, const Field& x);
+/// Returns e to the power of a.
 Field exp(const Field& a);
+/// Returns the natural logarithm, which a <= 0 has not.
 Field log(const Field& a);
+/// Returns the largest whole number up to a.
 Field floor(const Field& a);
+/// Returns the least whole number from a on.
 Field ceil(const Field& a);
+/// Returns the nearest whole number. Halves go away from 0.
 Field round(const Field& a);
-/// @endcond
+
 /// Reads a field from an expression of the CRT language, in which x, y and z are the coordinates:
 /// "x ** 2 + y ** 2 + z ** 2 - 1". It sees the language's functions and constants, and `t` is 0.
 /// Throws Error (script) with what is wrong and where.

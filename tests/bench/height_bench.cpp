@@ -11,13 +11,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "times.hpp"
+#include "compared_scenes.hpp"
 
 namespace {
 
 using namespace crt;
-using crt::bench::median;
-using crt::bench::seconds;
 
 /// Returns mountains: waves of ever shorter lengths, each in another direction.
 std::vector<double> mountains(std::uint32_t side) {
@@ -102,11 +100,8 @@ std::vector<Ray> camera_rays(int side) {
 /// Returns rays from one point of a box about the mountains to another.
 std::vector<Ray> scattered_rays(int count) {
   std::vector<Ray> rays;
-  std::uint64_t state = 1;
-  const auto random = [&] {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return 2 * (static_cast<double>(state >> 11) * 0x1p-53) - 1;
-  };
+  crt::bench::RandomShare share;
+  const auto random = [&] { return 2 * share() - 1; };
   for (int i = 0; i < count; ++i) {
     const Vec3 from(2 * random(), 0.8 + 0.6 * random(), 2 * random());
     const Vec3 to(random(), 0.1, random());
@@ -133,28 +128,16 @@ void compare(benchmark::State& state, bool is_coherent, Precision tier) {
   const std::vector<double> heights = mountains(side);
   const PreparedScene field_scene = prepared(field_of(heights, side), tier);
   const PreparedScene mesh_scene = prepared(mesh_of(heights, side), tier);
-  RayQueries field(field_scene);
-  RayQueries mesh(mesh_scene);
   constexpr int rays_a_side = 500;
   const std::vector<Ray> rays =
       is_coherent ? camera_rays(rays_a_side) : scattered_rays(rays_a_side * rays_a_side);
-  std::vector<double> field_distances(rays.size());
-  std::vector<double> mesh_distances(rays.size());
-  std::vector<double> ratios;
-  std::vector<double> nanoseconds;
-  for (auto _ : state) {
-    const double of_field = seconds([&] { field.distances(rays, field_distances); });
-    const double of_mesh = seconds([&] { mesh.distances(rays, mesh_distances); });
-    ratios.push_back(of_mesh / of_field);
-    nanoseconds.push_back(of_field / static_cast<double>(rays.size()) * 1e9);
-  }
+  const auto [of_field, of_mesh] =
+      crt::bench::compare_in_turns(state, field_scene, mesh_scene, rays);
   std::size_t differ = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    differ += std::isfinite(field_distances[i]) != std::isfinite(mesh_distances[i]) ? 1 : 0;
+    differ += std::isfinite(of_field[i]) != std::isfinite(of_mesh[i]) ? 1 : 0;
   }
   if (differ > 0) state.SkipWithError("the field and the mesh are met by other rays");
-  state.counters["ratio"] = median(ratios);
-  state.counters["ns_a_ray"] = median(nanoseconds);
 }
 
 void prepare_large(benchmark::State& state) {

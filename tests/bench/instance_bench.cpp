@@ -10,13 +10,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "times.hpp"
+#include "compared_scenes.hpp"
 
 namespace {
 
 using namespace crt;
-using crt::bench::median;
-using crt::bench::seconds;
 
 constexpr double spacing = 3;
 
@@ -53,11 +51,7 @@ Scene plates(int side, const Make& make) {
 std::vector<Ray> rays_at(int side, bool is_coherent) {
   constexpr int rays_a_side = 400;
   std::vector<Ray> rays;
-  std::uint64_t state = 1;
-  const auto random = [&] {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<double>(state >> 11) * 0x1p-53;
-  };
+  crt::bench::RandomShare random;
   const double middle = 0.5 * spacing * side;
   for (int i = 0; i < rays_a_side * rays_a_side; ++i) {
     if (is_coherent) {
@@ -78,22 +72,9 @@ void compare(benchmark::State& state, bool is_coherent) {
   const Entity one = plate(primitives);
   const PreparedScene shared_scene = prepare(plates(side, [&] { return one; }));
   const PreparedScene scene_of_copies = prepare(plates(side, [] { return plate(primitives); }));
-  RayQueries shared(shared_scene);
-  RayQueries copies(scene_of_copies);
-  const std::vector<Ray> rays = rays_at(side, is_coherent);
-  std::vector<double> shared_distances(rays.size());
-  std::vector<double> distances(rays.size());
-  std::vector<double> ratios;
-  std::vector<double> nanoseconds;
-  for (auto _ : state) {
-    const double of_shared = seconds([&] { shared.distances(rays, shared_distances); });
-    const double of_copies = seconds([&] { copies.distances(rays, distances); });
-    ratios.push_back(of_copies / of_shared);
-    nanoseconds.push_back(of_shared / static_cast<double>(rays.size()) * 1e9);
-  }
-  if (shared_distances != distances) state.SkipWithError("instances and copies differ");
-  state.counters["ratio"] = median(ratios);
-  state.counters["ns_a_ray"] = median(nanoseconds);
+  const auto [of_shared, of_copies] = crt::bench::compare_in_turns(
+      state, shared_scene, scene_of_copies, rays_at(side, is_coherent));
+  if (of_shared != of_copies) state.SkipWithError("instances and copies differ");
 }
 
 void prepare_many(benchmark::State& state) {

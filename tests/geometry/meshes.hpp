@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crt/entity.hpp"
-#include "geometry/oracle.hpp"
+#include "geometry/random.hpp"
 
 namespace crt::test {
 

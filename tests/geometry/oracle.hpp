@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/shape.hpp"
+#include "geometry/random.hpp"
 
 namespace crt::test {
 
@@ -63,21 +64,6 @@ struct RealRay {
 std::vector<Real> quadratic_roots(Real a, Real b, Real c);
 /// Returns where the ray meets the plane, if it does.
 std::vector<Real> plane_roots(const RealRay& ray, const RealVec& normal, const RealVec& position);
-
-/// A Random makes reproducible random numbers.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t bits();
-  double uniform(double low, double high);
-  double power_of_ten(double low, double high);  ///< 10^low to 10^high
-  bool one_in(int count) { return bits() % static_cast<std::uint64_t>(count) == 0; }
-  Vec3 in_cube();    ///< [-1, 1]^3
-  Vec3 direction();  ///< about unit length; one in four is a signed coordinate axis
-
- private:
-  std::uint64_t state_;
-};
 
 /// A Subject is a primitive with its oracle.
 struct Subject {

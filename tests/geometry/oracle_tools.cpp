@@ -1,4 +1,4 @@
-// The oracle needs quadruple precision, random numbers and scaled primitives.
+// The oracle needs quadruple precision and scaled primitives.
 #include <cmath>
 
 #include "core/geometry/implicit/field_node.hpp"
@@ -29,42 +29,6 @@ std::vector<Real> plane_roots(const RealRay& ray, const RealVec& normal, const R
   const Real rate = dot(normal, ray.direction);
   if (rate == 0) return {};
   return {dot(normal, position - ray.origin) / rate};
-}
-
-std::uint64_t Random::bits() {  // splitmix64
-  state_ += 0x9e3779b97f4a7c15u;
-  std::uint64_t z = state_;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-double Random::uniform(double low, double high) {
-  return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
-}
-
-double Random::power_of_ten(double low, double high) {
-  return std::pow(10.0, uniform(low, high));
-}
-
-Vec3 Random::in_cube() {
-  const double x = uniform(-1, 1);
-  const double y = uniform(-1, 1);
-  const double z = uniform(-1, 1);
-  return {x, y, z};
-}
-
-Vec3 Random::direction() {
-  if (one_in(4)) {
-    Vec3 axis(0.0);
-    axis[static_cast<int>(bits() % 3)] = one_in(2) ? 1 : -1;
-    return axis;
-  }
-  for (;;) {
-    const Vec3 v = in_cube();
-    const double squared = v.x * v.x + v.y * v.y + v.z * v.z;
-    if (squared > 0.01 && squared <= 1) return v / std::sqrt(squared);
-  }
 }
 
 namespace {

@@ -12,6 +12,7 @@
 #include "crt/error.hpp"
 #include "crt/query.hpp"
 #include "crt/render.hpp"
+#include "geometry/meshes.hpp"
 #include "support/same_answers.hpp"
 
 using namespace crt;
@@ -52,35 +53,12 @@ Entity make_solid() {
   return csg_union(parts);
 }
 
-/// Returns a ball of triangles, made anew. It is open if it lacks its pole.
+/// Returns a ball of triangles, made anew. It is open if it lacks one of them.
 Entity make_ball(bool is_open = false) {
-  constexpr std::uint32_t rows = 8;
-  constexpr std::uint32_t columns = 16;
-  std::vector<Vec3> corners{{0, 0, 1}, {0, 0, -1}};
-  std::vector<TriangleIndices> triangles;
-  const auto corner = [](std::uint32_t row, std::uint32_t column) {
-    if (row == 0) return 0u;
-    return row == rows ? 1u : 2 + (row - 1) * columns + column % columns;
-  };
-  for (std::uint32_t row = 1; row < rows; ++row) {
-    for (std::uint32_t column = 0; column < columns; ++column) {
-      const double down = 3.14159 * row / rows;
-      const double around = 6.28318 * column / columns;
-      corners.push_back(
-          {std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down)});
-    }
-  }
-  for (std::uint32_t row = is_open ? 1 : 0; row < rows; ++row) {
-    for (std::uint32_t column = 0; column < columns; ++column) {
-      const std::uint32_t a = corner(row, column);
-      const std::uint32_t b = corner(row + 1, column);
-      const std::uint32_t c = corner(row + 1, column + 1);
-      const std::uint32_t d = corner(row, column + 1);
-      if (b != c) triangles.push_back({a, b, c});
-      if (a != d) triangles.push_back({a, c, d});
-    }
-  }
-  return triangle_mesh(corners, triangles);
+  test::Random random(1);
+  test::TriangleList ball = test::ball_mesh(random, 6, 0);
+  if (is_open) ball.triangles.pop_back();
+  return ball.entity();
 }
 
 /// Places 961 solids, each of them make(), far enough apart.

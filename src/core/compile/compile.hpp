@@ -61,15 +61,17 @@ struct CompiledScene {
   const CompiledScene& prototype_of(const SceneObject& instance_object) const {
     return *prototypes[instances[instance_object.instance].prototype];
   }
+  /// Returns whether a hit is on an instance, whose leaves have numbers after all others.
+  bool is_of_instance(const RayHit& hit) const { return hit.leaf >= leaves.size(); }
   /// Returns the leaf that an object's hit is on.
   const Leaf& leaf_of(const RayHit& hit) const {
-    if (hit.leaf < leaves.size()) return leaves[hit.leaf];
+    if (!is_of_instance(hit)) return leaves[hit.leaf];
     const SceneObject& object = objects[hit.object];
     return prototype_of(object).leaves[hit.leaf - object.first_leaf];
   }
   /// Returns the scene that a hit's leaf is compiled in.
   const CompiledScene& scene_of(const RayHit& hit) const {
-    return hit.leaf < leaves.size() ? *this : prototype_of(objects[hit.object]);
+    return is_of_instance(hit) ? prototype_of(objects[hit.object]) : *this;
   }
   /// Returns the frame of an object that is an instance.
   InstanceFrame frame_of(const SceneObject& object, InstancePlacements& cache) const {

@@ -12,7 +12,7 @@ class LeafOfHit {
  public:
   LeafOfHit(const CompiledScene& scene, const RayHit& hit) : leaf_(&scene.leaf_of(hit)) {
     placement_ = leaf_->placement;
-    if (hit.leaf >= scene.leaves.size()) place_instance(scene, scene.objects[hit.object]);
+    if (scene.is_of_instance(hit)) place_instance(scene, scene.objects[hit.object]);
   }
   LeafOfHit(const LeafOfHit&) = delete;
   LeafOfHit& operator=(const LeafOfHit&) = delete;
@@ -52,7 +52,7 @@ struct Ids {
 inline Ids ids_of(const CompiledScene& scene, const RayHit& hit) {
   const Leaf& leaf = scene.leaf_of(hit);
   Ids ids{leaf.entity_id, leaf.part_id};
-  if (hit.leaf < scene.leaves.size()) return ids;
+  if (!scene.is_of_instance(hit)) return ids;
   const Instance& instance = scene.instances[scene.objects[hit.object].instance];
   if (leaf.takes_entity_id || instance.id_is_of_all) ids.entity = instance.entity_id;
   if (leaf.takes_part_id) ids.part = instance.part_id;

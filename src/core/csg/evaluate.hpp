@@ -122,6 +122,11 @@ class CsgWorkspace {
 RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
                        std::span<const FaceSurface> face_surfaces, const StartPoint& start);
 
+/// Returns a ray in the world as it is in the space of a leaf, with where it starts on that. The
+/// leaf has the number `index` in its scene.
+ObjectRay ray_to_leaf(const PlacedLeaf& leaf, std::uint32_t index,
+                      std::span<const FaceSurface> face_surfaces, const WorldRay& ray);
+
 /// Appends the crossings of a leaf with a ray in the world, which is `object_ray` in the leaf's
 /// space, by the leaf's tier. Returns whether the line is inside at t = -inf.
 bool leaf_crossings(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,

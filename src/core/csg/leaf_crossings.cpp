@@ -40,6 +40,13 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
   return {};
 }
 
+ObjectRay ray_to_leaf(const PlacedLeaf& leaf, std::uint32_t index,
+                      std::span<const FaceSurface> face_surfaces, const WorldRay& ray) {
+  ObjectRay result = leaf.placement.to_object(ray.origin, ray.direction);
+  result.start = start_on_leaf(leaf.leaf, index, face_surfaces, ray.start);
+  return result;
+}
+
 bool leaf_crossings(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                     CrossingList& out, std::uint64_t& escalations) {
   if (!leaf.leaf.exact) return leaf.leaf.shape->crossings(object_ray, out);

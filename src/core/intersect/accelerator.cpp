@@ -119,13 +119,6 @@ MemoryUse Accelerator::memory() const {
   return use;
 }
 
-ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) const {
-  const Leaf& leaf = compiled_.leaves[index];
-  ObjectRay result = leaf.placement->to_object(ray.origin, ray.direction);
-  result.start = start_on_leaf(leaf, index, compiled_.face_surfaces, ray.start);
-  return result;
-}
-
 SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit,
                                         bool with_uv) const {
   const LeafOfHit in_place(compiled_, hit);
@@ -144,7 +137,7 @@ void Accelerator::prefetch_surface_points(std::span<const RayHit, packet_size> h
   constexpr std::size_t in_cache = 64;
   if (compiled_.leaves.size() <= in_cache) return;
   const auto is_own = [&](const RayHit& hit) {
-    return hit.found() && hit.leaf < compiled_.leaves.size();
+    return hit.found() && !compiled_.is_of_instance(hit);
   };
   for_each_ray(some, [&](std::size_t i) {
     if (is_own(hits[i])) __builtin_prefetch(&compiled_.leaves[hits[i].leaf].complemented);

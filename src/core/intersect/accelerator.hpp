@@ -84,8 +84,6 @@ class Accelerator {
   SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
   /// Fetches beforehand what surface_point() looks at.
   void prefetch_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
-  /// Returns a ray in the world as it is in the space of a leaf, which is none of an instance.
-  ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
   /// Returns whether a crossing near the ray's end is of a surface through that end.
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
   /// Returns the object that a ray has left for good when it starts: it cannot meet that again.

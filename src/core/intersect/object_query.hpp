@@ -100,8 +100,7 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
   const Leaf& own = tested.scene.leaves[index];
   const PlacedLeaf leaf =
       tested.frame == nullptr ? PlacedLeaf(own) : PlacedLeaf(own, tested.frame->placement_of(own));
-  ObjectRay object_ray = leaf.placement.to_object(ray.origin, ray.direction);
-  object_ray.start = start_on_leaf(own, index, tested.scene.face_surfaces, ray.start);
+  ObjectRay object_ray = ray_to_leaf(leaf, index, tested.scene.face_surfaces, ray);
   CrossingList& crossings = work_->crossings;
   crossings.clear();
   object_ray.begin = ray.t_min;
@@ -178,7 +177,7 @@ bool ObjectQuery<Kind>::test_change(std::uint32_t object_index,
   const Leaf& leaf = scene.leaves[index];
   CrossingList& crossings = work_->crossings;
   crossings.clear();
-  leaf_crossings(leaf, *ray_, accelerator_->object_ray(index, *ray_), crossings,
+  leaf_crossings(leaf, *ray_, ray_to_leaf(leaf, index, scene.face_surfaces, *ray_), crossings,
                  work_->csg.escalations);
   for (const Crossing& crossing : crossings) {
     if (crossing.entering != change.into_leaf) continue;

@@ -124,7 +124,6 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
         workers);
   }
   accelerator_ = &geometry_->accelerator;
-  leaves_ = accelerator_->compiled().leaves;
   compiled_ = &accelerator_->compiled();
   entity_ids_ = geometry_->entity_ids;
   for (const SharedMaterial& material : geometry_->materials) {
@@ -138,7 +137,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   features_ = find_features(scene_, materials_, geometry_->has_csg);
 
   warnings_ = textures_.warnings();
-  if (leaves_.empty() && !has_instances()) {
+  if (compiled_->leaves.empty() && !has_instances()) {
     warnings_.emplace_back("the scene has no entities: only the background shows");
   } else if (scene.lights.empty()) {
     warn_of_no_light();

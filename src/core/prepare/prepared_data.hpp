@@ -160,7 +160,7 @@ class PreparedData {
 
   /// Returns the user's number of the entity that was hit.
   std::uint32_t entity_id(const RayHit& hit) const {
-    return is_of_instance(hit) ? ids(hit).entity : entity_ids_[hit.leaf];
+    return compiled_->is_of_instance(hit) ? ids(hit).entity : entity_ids_[hit.leaf];
   }
   /// Returns the user's numbers of what was hit.
   Ids ids(const RayHit& hit) const { return ids_of(*compiled_, hit); }
@@ -186,7 +186,7 @@ class PreparedData {
     if (leaf.complemented != face.flipped) side = opposite(side);
     return {.leaf = hit.leaf,
             .face = hit.face,
-            .surface = is_of_instance(hit) ? nothing : face.surface,
+            .surface = compiled_->is_of_instance(hit) ? nothing : face.surface,
             .side = side};
   }
 
@@ -194,9 +194,7 @@ class PreparedData {
   const CompiledScene& compiled() const { return *compiled_; }
 
   /// Returns the primitive that was hit.
-  const Leaf& leaf(const RayHit& hit) const {
-    return is_of_instance(hit) ? compiled_->leaf_of(hit) : leaves_[hit.leaf];
-  }
+  const Leaf& leaf(const RayHit& hit) const { return compiled_->leaf_of(hit); }
   /// Returns the primitive that was hit in its place.
   LeafOfHit placed_leaf(const RayHit& hit) const { return {*compiled_, hit}; }
 
@@ -217,7 +215,6 @@ class PreparedData {
  private:
   struct Geometry;
 
-  bool is_of_instance(const RayHit& hit) const { return hit.leaf >= leaves_.size(); }
   void warn_of_no_light();
   void warn_of_camera();
 
@@ -230,7 +227,6 @@ class PreparedData {
   Features features_;
   // These point into the geometry.
   const Accelerator* accelerator_ = nullptr;
-  std::span<const Leaf> leaves_;
   const CompiledScene* compiled_ = nullptr;
   std::span<const std::uint32_t> entity_ids_;  ///< of leaves, close together
   std::vector<std::string> warnings_;

@@ -75,7 +75,7 @@ Field operator-(const Field& a, const Field& b) {
   return core::of_two(FieldOperation::subtract, a, b);
 }
 Field operator*(const Field& a, const Field& b) {
-  if (a.node_ == b.node_) return core::of_one(FieldOperation::square, a);
+  if (&a.node() == &b.node()) return core::of_one(FieldOperation::square, a);
   return core::of_two(FieldOperation::multiply, a, b);
 }
 Field operator/(const Field& a, const Field& b) {
@@ -93,7 +93,7 @@ Field pow(const Field& a, double exponent) {
                          &a);
 }
 Field pow(const Field& a, const Field& exponent) {
-  if (exponent.node_->operation == FieldOperation::constant) return pow(a, exponent.node_->number);
+  if (exponent.node().operation == FieldOperation::constant) return pow(a, exponent.node().number);
   return exp(exponent * log(a));
 }
 Field sqrt(const Field& a) {
