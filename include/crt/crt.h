@@ -1538,6 +1538,82 @@ CRT_API crt_status crt_camera_rays(crt_prepared* prepared, const double* xy, siz
 
 /** @} */
 
+/* ---- solids of your own --------------------------------------------------------------------- */
+
+/** @defgroup custom Solids of your own
+ * A program adds a finite solid of its own by two functions: one says what a ray crosses, and the
+ * other has the normal of a point. Entities of it may be placed, combined and given materials as
+ * all others.
+ *
+ * Both are called from any thread, from many at once, and the same question must always have the
+ * same answer. If one returns another number than 0, the call that asked ends with
+ * CRT_ERROR_CANCELLED, and crt_cancel_value() is that number. An answer that cannot be ends it with
+ * CRT_ERROR_INVALID_ARGUMENT, and the message says what was wrong and along which ray.
+ * @{ */
+
+/** A crossing is where a ray crosses the surface of the solid. Fixed for ever: 24 bytes. */
+typedef struct crt_custom_crossing {
+  double t;          /**< along the ray that was given */
+  double error;      /**< |t - true t| is at most this, for that ray */
+  uint32_t face;     /**< the face that is crossed, below crt_custom.face_count */
+  uint32_t reserved; /**< not read */
+} crt_custom_crossing;
+
+/** A point is what is known of a place on the surface. Fixed for ever: 40 bytes. */
+typedef struct crt_custom_point {
+  double normal[3]; /**< out of the solid, of any length but 0 */
+  double u, v;
+} crt_custom_point;
+
+/**
+ * Says what the ray crosses from t_min to t_max, which is where it is within the bounds: in
+ * ascending t, first where it enters the solid, then where it leaves it, and so on. So there is an
+ * even number of crossings. The direction has unit length, t may be negative, and the origin is
+ * near the bounds. A ray that only touches the solid may have no crossings or two.
+ *
+ * The errors must be true, also where the ray grazes. What is within them of a surface that a ray
+ * starts on is taken for that surface. The library adds what its own rounding of the ray does:
+ * about 1e-15 of the largest coordinate, divided by the cosine of the ray to the normal.
+ * @param crossings  has place for `capacity` crossings
+ * @param count      gets how many there are. If that is more than `capacity`, the function is
+ *                   called again with place for as many. More than 65536 are an error.
+ */
+typedef int (*crt_custom_crossings_fn)(const crt_ray* ray, crt_custom_crossing* crossings,
+                                       size_t capacity, size_t* count, void* user);
+/**
+ * Says what is known of a place where a ray crosses a face. It is on the surface to the error of
+ * the crossing.
+ * @param point  all 0 before the call
+ */
+typedef int (*crt_custom_point_fn)(const double position[3], uint32_t face, crt_custom_point* point,
+                                   void* user);
+/** Is called once, from any thread, when the library will not use `user` again. */
+typedef void (*crt_release_fn)(void* user);
+
+/** Describes a solid of your own. */
+typedef struct crt_custom {
+  uint32_t struct_size;
+  uint32_t face_count; /**< how many faces there are, from 1 to 65536; crt_hit_parts() says which
+                            was hit */
+  double lower[3]; /**< what the solid lies within; rays that miss this box are not asked about */
+  double upper[3]; /**< above `lower` by at least 1e-100 */
+  crt_custom_crossings_fn crossings;
+  crt_custom_point_fn point;
+  crt_release_fn release; /**< NULL, or called when nothing uses the solid any more */
+  void* user;             /**< is handed to the functions */
+  const char* name;       /**< what messages call the solid; NULL: "a custom shape" */
+} crt_custom;
+
+/** Fills in the defaults: 1 face, and 0 elsewhere. Since 1.1. */
+CRT_API crt_status crt_custom_init(crt_custom* custom, size_t struct_size);
+/**
+ * Makes an entity of a solid of your own. The struct and the name are copied. If this fails,
+ * `release` is not called. Since 1.1.
+ */
+CRT_API crt_status crt_custom_create(const crt_custom* custom, crt_entity** out);
+
+/** @} */
+
 #ifdef __cplusplus
 }
 #endif

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <crt/background.hpp>
+#include <crt/bounding_box.hpp>
 #include <crt/camera.hpp>
 #include <crt/color.hpp>
 #include <crt/curves.hpp>
+#include <crt/custom.hpp>
 #include <crt/entity.hpp>
 #include <crt/error.hpp>
 #include <crt/field.hpp>
@@ -20,6 +22,7 @@
 #include <crt/prepared_scene.hpp>
 #include <crt/primitives.hpp>
 #include <crt/query.hpp>
+#include <crt/ray.hpp>
 #include <crt/render.hpp>
 #include <crt/scene.hpp>
 #include <crt/settings.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <crt/bounding_box.hpp>
 #include <crt/material.hpp>
 #include <crt/primitives.hpp>
 #include <crt/transform.hpp>
@@ -78,13 +79,6 @@ class Entity {
 
 /// This is the id of what is hit where nothing is.
 inline constexpr std::uint32_t no_entity_id = 0xffffffff;
-
-/// A BoundingBox is an axis-parallel box. What has no points has lower > upper, and what reaches to
-/// infinity has infinite sides.
-struct BoundingBox {
-  Vec3 lower{0, 0, 0};
-  Vec3 upper{0, 0, 0};
-};
 
 /// Returns a box that holds the entity, rounded outwards. It may be larger than the smallest one:
 /// of a difference it holds what is cut from. It takes O(n log n) for n primitives. Throws Error

@@ -28,10 +28,9 @@ inline constexpr std::size_t most_blob_parts = 1024;
 Implicit blob(std::span<const BlobPart> parts, double threshold);
 
 /// Makes a superellipsoid: all points at which (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) <= 1. `e`
-/// is `east_west`, the shape across z, and `n` is `north_south`, the shape along it, both from 0.01
-/// to
-/// 10. It is a sphere for 1 and 1, nearly a cube for small numbers, an octahedron for 2 and 2, and
-/// pinched beyond. It reaches from -1 to 1 along all axes.
+/// is `east_west`, the shape across z, and `n` is `north_south`, the shape along it, both between
+/// 0.01 and 10. It is a sphere for 1 and 1, nearly a cube for small numbers, an octahedron for 2
+/// and 2, and pinched beyond. It reaches from -1 to 1 along all axes.
 Implicit superellipsoid(double east_west, double north_south);
 
 }  // namespace crt

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <crt/custom.hpp>
 #include <crt/field.hpp>
 #include <crt/material.hpp>
 #include <crt/vec.hpp>
@@ -238,8 +239,8 @@ struct HeightField {
 };
 
 /// A Quadric has all points (x, y, z) for which
-///   squares.x x^2 + squares.y y^2 + squares.z z^2 + products.x x y + products.y x z + products.z y
-///   z
+///   squares.x x^2 + squares.y y^2 + squares.z z^2
+///   + products.x x y + products.y x z + products.z y z
 ///   + linear.x x + linear.y y + linear.z z + constant <= 0.
 /// So ellipsoids, paraboloids, hyperboloids, cones, cylinders and what is between two planes are
 /// quadrics. All but ellipsoids are infinite. The sum must be below 0 at some points and above 0 at
@@ -271,9 +272,16 @@ struct Implicit {
   std::optional<SharedMaterial> material{};
 };
 
+/// A Custom is a solid of which the program computes what rays cross (crt/custom.hpp). Entities
+/// share the shape.
+struct Custom {
+  std::shared_ptr<const CustomShape> shape{};  ///< must not be null
+  std::optional<SharedMaterial> material{};
+};
+
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive =
     std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle, Capsule,
-                 Mesh, Extrusion, Revolution, HeightField, Quadric, Implicit>;
+                 Mesh, Extrusion, Revolution, HeightField, Quadric, Implicit, Custom>;
 
 }  // namespace crt

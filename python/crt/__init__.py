@@ -18,6 +18,7 @@ values.
 from ._crossings import Crossings
 from ._library import version
 from ._version import __version__
+from .custom import Custom
 from .entities import Entity, difference, intersection, union
 from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Status
 from .expressions import Expression
@@ -81,6 +82,7 @@ __all__ = [
     "Capsule",
     "Cone",
     "Crossings",
+    "Custom",
     "Cylinder",
     "Diagnostic",
     "Disc",

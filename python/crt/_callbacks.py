@@ -1,10 +1,12 @@
 """The library calls Python functions through this module."""
 
+import contextlib
 import ctypes
+import itertools
 import signal
 import threading
 import types
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, ctypes.c_void_p)
@@ -14,6 +16,18 @@ PRINT = ctypes.CFUNCTYPE(
 )
 OPEN_FILE = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)
 POLL = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
+CUSTOM_CROSSINGS = ctypes.CFUNCTYPE(
+    ctypes.c_int,
+    ctypes.c_void_p,
+    ctypes.c_void_p,
+    ctypes.c_size_t,
+    ctypes.POINTER(ctypes.c_size_t),
+    ctypes.c_void_p,
+)
+CUSTOM_POINT = ctypes.CFUNCTYPE(
+    ctypes.c_int, ctypes.c_void_p, ctypes.c_uint32, ctypes.c_void_p, ctypes.c_void_p
+)
+RELEASE = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 
 # What stands for the types of crt.h.
 CALLBACKS: dict[str, Any] = {
@@ -22,6 +36,9 @@ CALLBACKS: dict[str, Any] = {
     "crt_print_fn": PRINT,
     "crt_open_file_fn": OPEN_FILE,
     "crt_poll_fn": POLL,
+    "crt_custom_crossings_fn": CUSTOM_CROSSINGS,
+    "crt_custom_point_fn": CUSTOM_POINT,
+    "crt_release_fn": RELEASE,
 }
 
 _DEFAULT_HANDLER = signal.default_int_handler
@@ -101,6 +118,41 @@ class _Raising:
                 raise exception from None
             finally:
                 del exception
+
+
+class Failure:
+    """A Failure is what a function of a custom shape returns to the library: 0, or its number."""
+
+    number = 0
+
+
+class Failures:
+    """Keeps what functions of custom shapes raise, until the call that asked has returned the
+    number which stands for it."""
+
+    def __init__(self) -> None:
+        self._kept: dict[int, BaseException] = {}
+        self._numbers = itertools.count(1)
+
+    @contextlib.contextmanager
+    def kept(self) -> Iterator[Failure]:
+        """Keeps what is raised, and gives the Failure its number."""
+        failure = Failure()
+        try:
+            yield failure
+        except BaseException as exception:
+            failure.number = next(self._numbers) % 0x40000000 + 0x3FFFFFFF
+            self._kept[failure.number] = exception
+
+    def taken(self, number: int) -> BaseException | None:
+        """Returns what a number stands for, and forgets what else was raised until now."""
+        exception = self._kept.pop(number, None)
+        if exception is not None:
+            self._kept.clear()
+        return exception
+
+
+failures = Failures()
 
 
 def _nothing() -> None:

@@ -401,4 +401,20 @@ FIELDS = {
             "not 0: leaves out all channels beside the colours, which only exr holds",
         ),
     ),
+    "crt_custom": (
+        (
+            "uint32_t face_count",
+            "how many faces there are, from 1 to 65536; crt_hit_parts() says which was hit",
+        ),
+        (
+            "double lower[3]",
+            "what the solid lies within; rays that miss this box are not asked about",
+        ),
+        ("double upper[3]", "above `lower` by at least 1e-100"),
+        ("crt_custom_crossings_fn crossings", ""),
+        ("crt_custom_point_fn point", ""),
+        ("crt_release_fn release", "None, or called when nothing uses the solid any more"),
+        ("void* user", "is handed to the functions"),
+        ("const char* name", "what messages call the solid; None: \"a custom shape\""),
+    ),
 }

@@ -509,4 +509,6 @@ FUNCTIONS = {
         "crt_ray* rays",
         "size_t ray_stride",
     ),
+    "crt_custom_init": ("crt_status", "crt_custom* custom", "size_t struct_size"),
+    "crt_custom_create": ("crt_status", "const crt_custom* custom", "crt_entity** out"),
 }

@@ -12,6 +12,7 @@ import pathlib
 from typing import Any
 
 from . import _arguments
+from ._callbacks import failures
 from ._functions import FUNCTIONS
 from .errors import Error, Status
 
@@ -78,6 +79,10 @@ def _load() -> ctypes.CDLL:
 
 
 def _raise_error(status: int, _function: Any, _arguments: Any) -> None:
+    if status == Status.CANCELLED:
+        exception = failures.taken(library.crt_cancel_value())
+        if exception is not None:
+            raise exception from None
     if status != Status.OK:
         raise Error(Status(status), library.crt_error_message().decode(errors="replace"))
 

@@ -84,9 +84,15 @@ class _Primitive(Entity):
         given: dict[str, Any],
         *arguments: Any,
     ) -> None:
-        name = type(self).__name__
-        with named(name, _NAMES):
+        with named(type(self).__name__, _NAMES):
             self._take(create(function, *arguments))
+        self._dress(material, id, given)
+
+    def _dress(
+        self, material: Material | None, id: SupportsIndex | None, given: dict[str, Any]
+    ) -> None:
+        """Gives it what all may have, and remembers that too."""
+        name = type(self).__name__
         if material is not None:
             place = reference(material, "crt_material", f"{name}: material")
             with named(f"{name}: material"):

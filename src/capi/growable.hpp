@@ -36,6 +36,8 @@ crt_background defaults<crt_background>();
 template <>
 crt_mesh defaults<crt_mesh>();
 template <>
+crt_custom defaults<crt_custom>();
+template <>
 crt_settings defaults<crt_settings>();
 template <>
 crt_render_options defaults<crt_render_options>();

@@ -1,6 +1,7 @@
 // No exception leaves the C interface: each of its functions runs inside guarded().
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 
@@ -9,7 +10,7 @@
 
 namespace crt::capi {
 
-/// Is thrown when a callback of a script returned `value` to cancel it.
+/// Is thrown when a callback of a script or of a custom shape returned `value` to cancel.
 struct CancelledByCallback {
   int value;
 };
@@ -33,6 +34,20 @@ crt_status guarded(const Body& body) noexcept {
   } catch (...) {
     return status_of_exception();
   }
+}
+
+/// Runs a body that a callback may cancel, whose number it keeps in `cancel_value`. Others, such as
+/// custom shapes, throw theirs.
+template <class Body>
+crt_status guarded(const std::atomic<int>& cancel_value, const Body& body) noexcept {
+  return guarded([&] {
+    try {
+      body();
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::cancelled) set_cancel_value(cancel_value);
+      throw;
+    }
+  });
 }
 
 /// Throws the error of a wrong argument.

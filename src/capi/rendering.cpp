@@ -55,14 +55,6 @@ CancelValue new_cancel_value() {
   return std::make_shared<std::atomic<int>>(0);
 }
 
-/// Does what guarded() does, for what a progress callback may cancel.
-template <class Body>
-crt_status guarded_render(const CancelValue& cancel_value, const Body& body) {
-  const crt_status status = guarded(body);
-  if (status == CRT_ERROR_CANCELLED) set_cancel_value(*cancel_value);
-  return status;
-}
-
 }  // namespace
 
 }  // namespace crt::capi
@@ -73,7 +65,7 @@ crt_status crt_render(crt_prepared* prepared, const crt_render_options* options,
   CancelValue cancel_value;
   const crt_status ready = guarded([&] { cancel_value = new_cancel_value(); });
   if (ready != CRT_OK) return ready;
-  return guarded_render(cancel_value, [&] {
+  return guarded(*cancel_value, [&] {
     require(prepared, "prepared");
     require(out, "out");
     *out = new crt_image(crt::render(prepared->value, to_options(options, cancel_value)));
@@ -121,7 +113,7 @@ crt_status crt_job_cancel(crt_job* job) {
 crt_status crt_job_wait(crt_job* job, crt_image** out) {
   const crt_status there = guarded([&] { require(job, "job"); });
   if (there != CRT_OK) return there;
-  return guarded_render(job->cancel_value, [&] {
+  return guarded(*job->cancel_value, [&] {
     crt::Image image = job->value.wait();
     if (out != nullptr) *out = new crt_image(std::move(image));
   });

@@ -160,7 +160,7 @@ crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out) {
 crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options,
                                   crt_prepared** out) {
   std::atomic<int> cancel_value = 0;  // the callback may be called on another thread
-  const crt_status status = guarded([&] {
+  return guarded(cancel_value, [&] {
     require(scene, "scene");
     require(out, "out");
     const auto given = taken_or_default(options, "options");
@@ -181,6 +181,4 @@ crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* o
     scene->prepared = prepared.watched_data();
     *out = new crt_prepared(std::move(prepared));
   });
-  if (status == CRT_ERROR_CANCELLED) set_cancel_value(cancel_value);
-  return status;
 }

@@ -55,6 +55,15 @@ std::span<const std::size_t> field_ends<crt_mesh>() {
 }
 
 template <>
+std::span<const std::size_t> field_ends<crt_custom>() {
+  using S = crt_custom;
+  static constexpr std::array ends = {
+      CRT_END(S, face_count), CRT_END(S, lower),   CRT_END(S, upper), CRT_END(S, crossings),
+      CRT_END(S, point),      CRT_END(S, release), CRT_END(S, user),  CRT_END(S, name)};
+  return ends;
+}
+
+template <>
 std::span<const std::size_t> field_ends<crt_light>() {
   using S = crt_light;
   static constexpr std::array ends = {CRT_END(S, type),   CRT_END(S, origin),  CRT_END(S, pointing),

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(Span span, std::string message) {
+[[noreturn]] void fail_reading(Span span, std::string message) {
   throw Failure{.span = span, .message = std::move(message), .code = ErrorCode::io};
 }
 
@@ -78,9 +78,9 @@ bool Files::is_really_open(const fs::path& canonical) const {
 
 Files::Found Files::find(const std::string& name, const fs::path& directory, Span span) const {
   const std::string shown = abbreviated(name);
-  if (name.empty()) fail(span, "a file's name must not be empty");
+  if (name.empty()) fail_reading(span, "a file's name must not be empty");
   if (name.find('\0') != std::string::npos)
-    fail(span, "a file's name must not hold the character U+0000");
+    fail_reading(span, "a file's name must not hold the character U+0000");
   bool outside = false;
   for (const fs::path& candidate : candidates(name, directory)) {
     if (!is_open(candidate)) {
@@ -99,21 +99,23 @@ Files::Found Files::find(const std::string& name, const fs::path& directory, Spa
       continue;
     }
     if (!fs::is_regular_file(canonical, failed))
-      fail(span, fmt::format("'{}' is not a regular file", shown));
+      fail_reading(span, fmt::format("'{}' is not a regular file", shown));
     return {candidate, canonical, std::nullopt};
   }
   if (outside)
-    fail(span,
-         fmt::format(
-             "'{}' lies outside the directories that a script may read: its own and the resource "
-             "directories",
-             shown));
+    fail_reading(
+        span,
+        fmt::format(
+            "'{}' lies outside the directories that a script may read: its own and the resource "
+            "directories",
+            shown));
   if (fs::path(name).has_root_directory() && options_.resource_directories.empty())
-    fail(span,
-         fmt::format(
-             "there is no file '{}': a leading '/' means a resource directory, and none is set",
-             shown));
-  fail(span, fmt::format("there is no file '{}'", shown));
+    fail_reading(
+        span,
+        fmt::format(
+            "there is no file '{}': a leading '/' means a resource directory, and none is set",
+            shown));
+  fail_reading(span, fmt::format("there is no file '{}'", shown));
 }
 
 std::string Files::read_text(Found found, std::size_t most_bytes, Span span) const {
@@ -131,7 +133,7 @@ std::string Files::read_text(Found found, std::size_t most_bytes, Span span) con
     throw Failure{
         .span = span, .message = fmt::format("'{}' is too long", shown), .code = ErrorCode::limit};
   std::optional<std::string> text = read_regular_file(found.path, most_bytes);
-  if (!text) fail(span, fmt::format("'{}' cannot be read", shown));
+  if (!text) fail_reading(span, fmt::format("'{}' cannot be read", shown));
   return std::move(*text);
 }
 

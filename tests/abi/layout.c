@@ -226,6 +226,28 @@ AT(crt_blob_part, to, 24);
 AT(crt_blob_part, radius, 48);
 AT(crt_blob_part, strength, 56);
 
+SIZE(crt_custom_crossing, 24);
+AT(crt_custom_crossing, t, 0);
+AT(crt_custom_crossing, error, 8);
+AT(crt_custom_crossing, face, 16);
+AT(crt_custom_crossing, reserved, 20);
+
+SIZE(crt_custom_point, 40);
+AT(crt_custom_point, normal, 0);
+AT(crt_custom_point, u, 24);
+AT(crt_custom_point, v, 32);
+
+SIZE(crt_custom, 96);
+AT(crt_custom, struct_size, 0);
+AT(crt_custom, face_count, 4);
+AT(crt_custom, lower, 8);
+AT(crt_custom, upper, 32);
+AT(crt_custom, crossings, 56);
+AT(crt_custom, point, 64);
+AT(crt_custom, release, 72);
+AT(crt_custom, user, 80);
+AT(crt_custom, name, 88);
+
 SIZE(crt_render_stats, 272);
 AT(crt_render_stats, struct_size, 0);
 AT(crt_render_stats, threads, 4);

@@ -34,6 +34,8 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_mesh mesh;
   crt_mesh_init(&mesh, sizeof mesh);
   mesh.vertex_count = 1;
+  crt_custom custom;
+  crt_custom_init(&custom, sizeof custom);
   const double heights[4] = {0.5, 1, 0, 0.25};
   const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
   const std::vector<crt_blob_part> many_parts(1025, blob_part);
@@ -87,6 +89,9 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"east_west", [&] { return crt_superellipsoid_create(0, 1, &entity); }},
       {"north_south", [&] { return crt_superellipsoid_create(1, 11, &entity); }},
       {"out", [&] { return crt_superellipsoid_create(1, 1, nullptr); }},
+      {"custom", [&] { return crt_custom_create(nullptr, &entity); }},
+      {"crossings", [&] { return crt_custom_create(&custom, &entity); }},
+      {"out", [&] { return crt_custom_create(&custom, nullptr); }},
       {"axis", [&] { return crt_torus_create(z, nullptr, 1, 0.1, &entity); }},
       {"center", [&] { return crt_disc_create(nullptr, o, 1, &entity); }},
       {"c", [&] { return crt_triangle_create(z, o, nullptr, &entity); }},

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz_custom.hpp"
 #include "fuzz_input.hpp"
 
 namespace {
@@ -96,7 +97,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(18);
+  const std::uint32_t kind = input_.below(19);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -163,6 +164,11 @@ void Session::make_primitive() {
       }
       case 16:
         return crt_superellipsoid_create(r, s, out);
+      case 17: {
+        auto custom = scrambled<crt_custom>(crt_custom_init);
+        crt::test::describe_any(input_, a, b, custom);
+        return crt_custom_create(&custom, out);
+      }
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};

@@ -37,7 +37,7 @@ template <class Handle, class Call>
 Handle made(const Call& call) {
   typename Handle::pointer out = nullptr;
   const crt_status status = call(&out);
-  INFO(crt_error_message());
+  INFO(std::string(crt_error_message()));
   REQUIRE(status == CRT_OK);
   REQUIRE(out != nullptr);
   return Handle(out);

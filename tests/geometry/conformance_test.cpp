@@ -24,6 +24,7 @@
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
 #include "crt/validate.hpp"
+#include "geometry/custom_shapes.hpp"
 #include "geometry/exact_tools.hpp"
 #include "geometry/height_fields.hpp"
 #include "geometry/meshes.hpp"
@@ -83,6 +84,14 @@ void set_at_random(Implicit& implicit, std::size_t /*bytes*/, Random& random) {
     implicit.lower[axis] = random_field(random);
     implicit.upper[axis] = random_field(random);
   }
+}
+
+Primitive random_instance(std::size_t kind, Random& random);
+
+/// Makes a custom shape of a finite solid.
+void set_at_random(Custom& custom, std::size_t /*bytes*/, Random& random) {
+  const Primitive some[] = {Sphere{}, Box{}, Cylinder{}, Cone{}, Torus{}, Capsule{}};
+  custom = as_custom(random_instance(some[random.bits() % std::size(some)].index(), random));
 }
 
 /// Returns a valid instance of the primitive that stands at this place in the list.

@@ -256,8 +256,8 @@ void check_side_by_side(const core::Shape& shape, ObjectRay ray) {
       t[lane] = crossing.t * factor;
     }
     core::SurfacePointLanes points;
-    shape.points_on(rays.from_center(shape.anchor(crossing.face), t), rays.direction, crossing.face,
-                    true, points);
+    shape.points_on(rays.from_center(shape.anchor(crossing.face), t), rays.direction, 1u << 2,
+                    crossing.face, true, points);
     const core::SurfacePoint point = shape.surface_point(ray, crossing);
     REQUIRE(points.position.lane(2) == point.position);
     REQUIRE(points.normal.lane(2) == point.normal);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/geometry/implicit/field_node.hpp"
+#include "geometry/custom_shapes.hpp"
 #include "geometry/oracle.hpp"
 #include "geometry/scaled_mesh.hpp"
 #include "geometry/scaled_profile.hpp"
@@ -128,6 +129,9 @@ Implicit times(Implicit s, double k) {
   s.lower *= k;
   s.upper *= k;
   return s;
+}
+Custom times(const Custom& s, double k) {
+  return as_custom(scaled(dynamic_cast<const PrimitiveAsCustom&>(*s.shape).primitive(), k));
 }
 Triangle times(Triangle s, double k) {
   s.a *= k;

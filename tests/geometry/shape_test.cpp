@@ -8,6 +8,7 @@
 
 #include "crt/error.hpp"
 #include "crt/validate.hpp"
+#include "geometry/custom_shapes.hpp"
 #include "geometry/meshes.hpp"
 #include "geometry/profiles.hpp"
 
@@ -43,15 +44,17 @@ TEST_CASE(
   CHECK(argument(Extrusion{}) == "profile");
   CHECK(argument(Revolution{}) == "profile");
   CHECK(argument(HeightField{}) == "heights");
+  CHECK(argument(Custom{}) == "shape");
   Random random(1);
   const TriangleList list = ball_mesh(random, 1, 0);
   const Mesh mesh{.triangles = mesh_triangles(list.positions, list.triangles)};
   const Extrusion extrusion{.profile = profile_of({rectangle(0, 0, 1, 1)})};
   const Revolution revolution{.profile = extrusion.profile};
   const HeightField field{.heights = make_height_grid({0, 0.5, 1, 0}, 2, 2)};
+  const Custom custom = as_custom(Sphere{});
   const Primitive all[] = {Sphere{},   Box{},  Plane{},    HalfPlane{}, Cylinder{}, Cone{},
                            Torus{},    Disc{}, Triangle{}, Capsule{},   mesh,       extrusion,
-                           revolution, field,  Quadric{},  Implicit{}};
+                           revolution, field,  Quadric{},  Implicit{},  custom};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");

@@ -9,6 +9,7 @@
 #include "crt/transform.hpp"
 #include "oracle/number_vec.hpp"
 #include "oracle/roots.hpp"
+#include "oracle/without_oracle.hpp"
 
 namespace crt::test {
 
@@ -267,7 +268,7 @@ Equations<Number> equations(const Revolution& revolution, const ExactLine<Number
 }
 
 template <class Number>
-Equations<Number> equations(const Implicit&, const ExactLine<Number>&) {
+Equations<Number> equations(const WithoutOracle auto&, const ExactLine<Number>&) {
   has_no_oracle();
 }
 

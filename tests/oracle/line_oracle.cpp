@@ -111,7 +111,7 @@ double gradient(const Revolution& revolution, std::size_t which, const ExactLine
 }
 
 template <class Number>
-double gradient(const Implicit&, std::size_t, const ExactLine<Number>&, const Number&) {
+double gradient(const WithoutOracle auto&, std::size_t, const ExactLine<Number>&, const Number&) {
   has_no_oracle();
 }
 

@@ -334,8 +334,8 @@ std::string description(const TestRay& ray) {
     } else if constexpr (std::is_same_v<P, Quadric>)
       return fmt::format("quadric {} {} {} {:a}", text(p.squares), text(p.products), text(p.linear),
                          p.constant);
-    else if constexpr (std::is_same_v<P, Implicit>)
-      return std::string("implicit solid");
+    else if constexpr (WithoutOracle<P>)
+      has_no_oracle();
     else if constexpr (std::is_same_v<P, Mesh>)
       return fmt::format("mesh of {} triangles", p.triangles->size());
     else

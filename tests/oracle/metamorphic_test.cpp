@@ -55,7 +55,7 @@ Primitive scaled(Primitive primitive, double factor) {
           p.linear /= factor;
         } else if constexpr (std::is_same_v<P, Mesh>) {
           p = scaled_mesh(p, factor);
-        } else if constexpr (std::is_same_v<P, Implicit>) {
+        } else if constexpr (WithoutOracle<P>) {
           has_no_oracle();
         } else {
           p.a *= factor;

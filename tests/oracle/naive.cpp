@@ -11,6 +11,7 @@
 
 #include "geometry/height_fields.hpp"
 #include "oracle/number_vec.hpp"
+#include "oracle/without_oracle.hpp"
 
 namespace crt::test {
 namespace {
@@ -104,7 +105,7 @@ bool meet(const Mesh& mesh, const Vec3& o, const Vec3& d, core::CrossingList& ou
   return false;
 }
 
-bool meet(const Implicit&, const Vec3&, const Vec3&, core::CrossingList&) {
+bool meet(const WithoutOracle auto&, const Vec3&, const Vec3&, core::CrossingList&) {
   has_no_oracle();
 }
 

@@ -151,11 +151,6 @@ struct ArchedTriangle {
   }
 };
 
-/// Is called for primitives that have no oracle, which none of these tests makes.
-[[noreturn]] inline void has_no_oracle() {
-  throw std::logic_error("this primitive has no oracle");
-}
-
 /// A CornerField is a height field of this oracle: four heights, which two triangles join.
 struct CornerField {
   Vec3 lower;

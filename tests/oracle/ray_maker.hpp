@@ -12,6 +12,7 @@
 #include "core/math/random.hpp"
 #include "crt/primitives.hpp"
 #include "crt/transform.hpp"
+#include "oracle/without_oracle.hpp"
 
 namespace crt::test {
 
@@ -29,10 +30,14 @@ enum class RayKind : std::uint8_t {
 inline constexpr std::size_t ray_kinds = 8;
 std::string_view name_of(RayKind kind);
 
-/// Counts the primitives, which are numbered by their place in the variant `Primitive`.
-/// The last primitive has no oracle here. A field has no equations but its own, and the promises
-/// about it are others. tests/geometry/implicit_test.cpp compares fields with other primitives.
-inline constexpr std::size_t primitive_kinds = std::variant_size_v<Primitive> - 1;
+template <class... Primitives>
+constexpr std::size_t count_with_oracle(std::variant<Primitives...>*) {
+  return (std::size_t{!WithoutOracle<Primitives>} + ...);
+}
+/// Counts the primitives with an oracle, which are numbered by their place in the variant
+/// `Primitive`. The others come last there.
+inline constexpr std::size_t primitive_kinds = count_with_oracle(static_cast<Primitive*>(nullptr));
+static_assert(!WithoutOracle<std::variant_alternative_t<primitive_kinds - 1, Primitive>>);
 std::string_view name_of_primitive(std::size_t kind);
 
 struct TestRay {

@@ -260,13 +260,13 @@ Vec3 edge(Counted& random, const Mesh& mesh) {
   return edge(random, any_triangle(random, mesh));
 }
 
-void make(Counted&, const Vec3&, double, Implicit&) {
+void make(Counted&, const Vec3&, double, WithoutOracle auto&) {
   has_no_oracle();
 }
-Spot spot(Counted&, const Implicit&) {
+Spot spot(Counted&, const WithoutOracle auto&) {
   has_no_oracle();
 }
-Vec3 edge(Counted&, const Implicit&) {
+Vec3 edge(Counted&, const WithoutOracle auto&) {
   has_no_oracle();
 }
 

@@ -135,7 +135,7 @@ double outside(const Revolution& revolution, const IntervalVec& p) {
                   is_more_than_half(revolution) ? std::min(first, last) : std::max(first, last));
 }
 
-double outside(const Implicit&, const IntervalVec&) {
+double outside(const WithoutOracle auto&, const IntervalVec&) {
   has_no_oracle();
 }
 double outside(const HeightField& field, const IntervalVec& p) {
@@ -229,7 +229,7 @@ Ball ball_of(const Revolution& revolution) {
                    std::abs(arc.center.x) + arc.radius)};
 }
 
-Ball ball_of(const Implicit&) {
+Ball ball_of(const WithoutOracle auto&) {
   has_no_oracle();
 }
 Ball ball_of(const HeightField& field) {

@@ -10,6 +10,7 @@
 #include "core/prepare/prepared_data.hpp"
 #include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
+#include "geometry/custom_shapes.hpp"
 #include "support/solids.hpp"
 
 using namespace crt;
@@ -81,7 +82,9 @@ std::vector<Entity> one_of_each(double scale) {
           Implicit{.field = pow(Field::x() / scale, 2) + 2 * pow(Field::y() / scale, 2) +
                             pow(Field::z() / scale, 3) - 0.4,
                    .lower = v(-0.8, -0.7, -0.6),
-                   .upper = v(0.7, 0.8, 0.9)}};
+                   .upper = v(0.7, 0.8, 0.9)},
+          test::as_custom(
+              Capsule{.from = v(-0.3, 0, 0.1), .to = v(0.4, 0.2, 0), .radius = 0.3 * scale})};
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
         (start.side == Side::outside) != leaf.surface_of(face, face_surfaces).flipped;
     return RayStart{.face = face,
                     .side = outside ? Side::outside : Side::inside,
-                    .on_face = start.leaf == index && start.face == face};
+                    .on_face = start.leaf == index && start.face == face,
+                    .t_error = start.t_error};
   };
   if (start.leaf == index) return on_face(start.face);
   // A surface has the number of the first face that lies on it.

@@ -3,9 +3,12 @@
 // make_exact_shape() of its own.
 #include "core/geometry/shape.hpp"
 
+#include <bit>
+
 #include "core/geometry/box/box.hpp"
 #include "core/geometry/capsule/capsule.hpp"
 #include "core/geometry/cone/cone.hpp"
+#include "core/geometry/custom/custom.hpp"
 #include "core/geometry/cylinder/cylinder.hpp"
 #include "core/geometry/disc/disc.hpp"
 #include "core/geometry/exact_shape.hpp"
@@ -51,6 +54,19 @@ static_assert(have_all_functions(static_cast<Primitive*>(nullptr)),
               "a primitive lacks one of validate, is_solid, make_shape, make_exact_shape");
 
 }  // namespace
+
+void ShapeOfSinglePoints::points_on(const VectorLanes& offsets, const VectorLanes& directions,
+                                    std::uint32_t some, std::uint32_t face, bool with_uv,
+                                    SurfacePointLanes& points) const {
+  for (std::uint32_t left = some; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const SurfacePoint point = point_on(offsets.lane(lane), directions.lane(lane), face, with_uv);
+    points.position.set(lane, point.position);
+    points.normal.set(lane, point.normal);
+    points.u[lane] = point.u;
+    points.v[lane] = point.v;
+  }
+}
 
 void validate(const Primitive& primitive) {
   std::visit([](const auto& description) { validate(description); }, primitive);

@@ -49,6 +49,8 @@ struct Crossing {
 struct CrossingList : std::vector<Crossing> {
   /// Counts how often what a ray crosses of an Implicit could not be decided, since it was made.
   std::uint64_t undecided = 0;
+  /// This is what a Custom has said, reused like the list itself.
+  std::vector<CustomCrossing> of_custom;
 };
 
 /// A SurfacePointOf is what is known of a point on a face, or of as many as a Real has lanes.
@@ -140,12 +142,14 @@ class Shape {
 
   /// These compute the surface point from where rays cross a face, relative to the face's anchor:
   /// from_center(anchor, t) of an ObjectRay or of ObjectRayLanes. Each lane gets what one ray
-  /// would, to the last bit.
+  /// would, to the last bit. Only the lanes that have their bit in `some` are wanted. What is in
+  /// the others, before and after, means nothing.
   virtual Vec3 anchor(std::uint32_t face) const = 0;
   virtual SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
                                 bool with_uv) const = 0;
   virtual void points_on(const VectorLanes& offsets, const VectorLanes& directions,
-                         std::uint32_t face, bool with_uv, SurfacePointLanes& points) const = 0;
+                         std::uint32_t some, std::uint32_t face, bool with_uv,
+                         SurfacePointLanes& points) const = 0;
 
   /// Faces are counted, and each has the surface that it is a piece of, to find faces that
   /// coincide.
@@ -187,13 +191,20 @@ class ShapeOfPoints : public Shape {
     derived().template write_point<double>(offset, direction, face, with_uv, point);
     return point;
   }
-  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                 bool with_uv, SurfacePointLanes& points) const final {
+  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t /*some*/,
+                 std::uint32_t face, bool with_uv, SurfacePointLanes& points) const final {
     derived().template write_point<Lanes>(offsets, directions, face, with_uv, points);
   }
 
  private:
   const Derived& derived() const { return static_cast<const Derived&>(*this); }
+};
+
+/// A ShapeOfSinglePoints has a formula for one point only. It asks for lanes one by one.
+class ShapeOfSinglePoints : public Shape {
+ public:
+  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t some,
+                 std::uint32_t face, bool with_uv, SurfacePointLanes& points) const override;
 };
 
 class ExactShape;

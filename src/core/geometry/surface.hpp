@@ -7,7 +7,16 @@
 
 namespace crt::core {
 
-enum class SurfaceKind : std::uint8_t { plane, sphere, cylinder, cone, torus, quadric, field };
+enum class SurfaceKind : std::uint8_t {
+  plane,
+  sphere,
+  cylinder,
+  cone,
+  torus,
+  quadric,
+  field,
+  custom
+};
 
 /// A Surface is the whole surface that a face is a piece of, in object space. Equal surfaces of one
 /// kind have equal parameters, but for planes. One plane has many positions and normals, so planes
@@ -19,9 +28,9 @@ struct Surface {
   /// This is a plane's normal out of the face, of any length, or an axis (see canonical_axis), or 0
   /// where there is none.
   Vec3 direction{0, 0, 0};
-  /// These are radii, thickness, or slope, or what tells fields apart. A quadric, whose position is
-  /// the origin, has all its numbers but the squares here. The squares are in place of the
-  /// direction.
+  /// These are radii, thickness, or slope, or what tells fields and custom shapes apart. A quadric,
+  /// whose position is the origin, has all its numbers but the squares here. The squares are in
+  /// place of the direction.
   std::array<double, 8> sizes{};
   /// The face's normal points into what the round surface encloses. A plane has its `direction`.
   bool is_hollow = false;

@@ -119,20 +119,20 @@ class PreparedData {
   /// Returns the point of a hit in the primitive's own space. The normal points out of the object.
   SurfacePoint object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
 
-  /// Computes the points of a group of rays, each at its t, of which some hit the same face as
+  /// Computes the points of some rays of a group, each at its t, which hit the same face as
   /// `first`. For the others the point means nothing.
-  void object_points(const RayHit& first, const RayLanes& lines, const Lanes& t, bool with_uv,
-                     SurfacePointLanes& points) const {
+  void object_points(const RayHit& first, RayMask some, const RayLanes& lines, const Lanes& t,
+                     bool with_uv, SurfacePointLanes& points) const {
     const LeafOfHit in_place = placed_leaf(first);
     const Leaf& leaf = in_place.leaf();
     const Vec3 anchor = leaf.shape->anchor(first.face);
     if (in_place.placement().is_identity()) {
-      leaf.shape->points_on(lines.from_center(anchor, t), lines.direction, first.face, with_uv,
-                            points);
+      leaf.shape->points_on(lines.from_center(anchor, t), lines.direction, some, first.face,
+                            with_uv, points);
     } else {
       const ObjectRayLanes moved = in_place.placement().to_object(lines);
-      leaf.shape->points_on(moved.from_center(anchor, t), moved.direction, first.face, with_uv,
-                            points);
+      leaf.shape->points_on(moved.from_center(anchor, t), moved.direction, some, first.face,
+                            with_uv, points);
     }
     if (leaf.complemented) points.normal = -points.normal;
   }

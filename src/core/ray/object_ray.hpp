@@ -26,6 +26,8 @@ struct RayStart {
   std::uint32_t face = no_face;
   Side side = Side::outside;  ///< of the face's surface
   bool on_face = true;
+  /// Rounding has put the start so far off the surface, measured across it in units of t.
+  double t_error = 0;
 };
 
 /// Computes ObjectRay::from_center() for a ray or for lanes.

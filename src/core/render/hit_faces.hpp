@@ -41,7 +41,8 @@ class HitFaces {
   void object_points(const AlikeRays& alike, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
     if (alike.on_spheres == 0) {
-      data_.object_points(hits_[first_ray(alike.on_face)], lines, t, with_uv, points);
+      data_.object_points(hits_[first_ray(alike.on_face)], alike.on_face, lines, t, with_uv,
+                          points);
     } else {
       data_.sphere_points(hits_, alike.all(), lines, t, with_uv, points);
     }

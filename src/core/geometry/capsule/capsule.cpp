@@ -121,9 +121,10 @@ SurfacePoint CapsuleShape::point_on(const Vec3& offset, const Vec3& direction, s
 }
 
 void CapsuleShape::points_on(const VectorLanes& offsets, const VectorLanes& directions,
-                             std::uint32_t face, bool with_uv, SurfacePointLanes& points) const {
+                             std::uint32_t some, std::uint32_t face, bool with_uv,
+                             SurfacePointLanes& points) const {
   const bool is_side = face == side_face;
-  part(face).points_on(offsets, directions, 0, with_uv && is_side, points);
+  part(face).points_on(offsets, directions, some, 0, with_uv && is_side, points);
   if (with_uv) set_uv<Lanes>(face, points);
 }
 

@@ -45,8 +45,8 @@ class CapsuleShape final : public Shape {
   Vec3 anchor(std::uint32_t face) const override { return part(face).anchor(0); }
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
                         bool with_uv) const override;
-  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                 bool with_uv, SurfacePointLanes& points) const override;
+  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t some,
+                 std::uint32_t face, bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 3; }
   Surface surface(std::uint32_t face) const override { return part(face).surface(0); }
   std::size_t bytes() const override { return sizeof *this; }

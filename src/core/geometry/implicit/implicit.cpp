@@ -86,18 +86,13 @@ SurfacePoint ImplicitShape::point_on(const Vec3& offset, const Vec3& direction, 
 }
 
 void ImplicitShape::points_on(const VectorLanes& offsets, const VectorLanes& directions,
-                              std::uint32_t face, bool with_uv, SurfacePointLanes& points) const {
+                              std::uint32_t some, std::uint32_t face, bool with_uv,
+                              SurfacePointLanes& points) const {
   if (face >= first_box_face) {
-    box_->points_on(offsets, directions, face - first_box_face, with_uv, points);
+    box_->points_on(offsets, directions, some, face - first_box_face, with_uv, points);
     return;
   }
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const SurfacePoint point = point_on(offsets.lane(lane), directions.lane(lane), face, with_uv);
-    points.position.set(lane, point.position);
-    points.normal.set(lane, point.normal);
-    points.u[lane] = point.u;
-    points.v[lane] = point.v;
-  }
+  ShapeOfSinglePoints::points_on(offsets, directions, some, face, with_uv, points);
 }
 
 Surface ImplicitShape::surface(std::uint32_t face) const {

@@ -21,7 +21,7 @@ namespace crt::core {
 /// The first face of an implicit solid is the field's, and those of its box follow.
 inline constexpr std::uint32_t first_box_face = 1;
 
-class ImplicitShape final : public Shape {
+class ImplicitShape final : public ShapeOfSinglePoints {
  public:
   explicit ImplicitShape(const Implicit& implicit);
 
@@ -33,8 +33,8 @@ class ImplicitShape final : public Shape {
   Vec3 anchor(std::uint32_t) const override { return box_->anchor(0); }
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
                         bool with_uv) const override;
-  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                 bool with_uv, SurfacePointLanes& points) const override;
+  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t some,
+                 std::uint32_t face, bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return first_box_face + box_->face_count(); }
   Surface surface(std::uint32_t face) const override;
   /// Returns only its own bytes and those of the program, which others may share.

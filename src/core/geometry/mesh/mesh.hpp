@@ -36,9 +36,9 @@ class MeshShape final : public Shape {
     if (with_uv && has_uv_) facet_attributes()->weights_to_uv(face, point.u, point.v);
     return point;
   }
-  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                 bool with_uv, SurfacePointLanes& points) const override {
-    facet(face).points_on(offsets, directions, 0, with_uv, points);
+  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t some,
+                 std::uint32_t face, bool with_uv, SurfacePointLanes& points) const override {
+    facet(face).points_on(offsets, directions, some, 0, with_uv, points);
     if (with_uv && has_uv_) facet_attributes()->weights_to_uv(face, points.u, points.v);
   }
   /// Returns the normal for shading at a point of a facet with normals. `normal` is the facet's, of

@@ -98,8 +98,9 @@ SurfacePoint RevolutionShape::point_on(const Vec3& offset, const Vec3& direction
 }
 
 void RevolutionShape::points_on(const VectorLanes& offsets, const VectorLanes& directions,
-                                std::uint32_t face, bool with_uv, SurfacePointLanes& points) const {
-  body(face).points_on(offsets, directions, 0, false, points);
+                                std::uint32_t some, std::uint32_t face, bool with_uv,
+                                SurfacePointLanes& points) const {
+  body(face).points_on(offsets, directions, some, 0, false, points);
   finish_point<Lanes>(face, with_uv, points);
 }
 

@@ -30,8 +30,8 @@ class RevolutionShape final : public Shape {
   Vec3 anchor(std::uint32_t face) const override { return body(face).anchor(0); }
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
                         bool with_uv) const override;
-  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                 bool with_uv, SurfacePointLanes& points) const override;
+  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t some,
+                 std::uint32_t face, bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override {
     return end_count + 2 * turned_.profile->wall_count();
   }
