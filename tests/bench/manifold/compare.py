@@ -187,8 +187,8 @@ def agreement(comparisons: list[Comparison]) -> str:
         "solids",
         "agree",
         "error by rays",
-        "difference / error",
-        "difference by the same rays / tolerance",
+        "difference in errors",
+        "by the same rays, in tolerances",
     ]
     return table(heads, (row(*item) for item in families(comparisons).items()))
 
@@ -229,10 +229,10 @@ def timed(comparisons: list[Comparison], own: list[tuple[float, float]]) -> str:
     heads = [
         "solids",
         "triangles",
-        "Manifold: meshes, ms",
-        "boolean, ms",
-        "CRT: meshes, ms",
-        "prepare, ms",
+        "Manifold: meshes",
+        "boolean",
+        "CRT: meshes",
+        "prepare",
     ]
     return table(heads, (row(*item) for item in families(comparisons).items()))
 
