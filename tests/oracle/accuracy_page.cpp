@@ -171,6 +171,34 @@ however near to each other they are.
 |---|---|---|---|---|---|---|
 )";
 
+constexpr const char* meshes_table = R"(
+## Meshes
+
+The meshes are closed, of 100 to 10^6 triangles, as many rays at each size:
+
+- *marching tetrahedra* of a smooth field, and a *subdivided* ball, mostly with noise;
+- *slivers*: fans of needles, needles beside edges, balls stretched by up to 10^6;
+- *snapped to a grid*: voxels, and balls whose corners are rounded to eighths, so that many facets
+  coincide, pass through one another or lose their area;
+- *mesh minus mesh*: voxels less the same or others of the same grid, and a ball less the same with
+  some corners displaced. Most of their facets lie in a plane of the other mesh. A transform puts
+  every other of the meshes that are taken away in its place.
+
+Half of the rays are random. The others are aimed at corners and edges, run along edges, into planes
+of facets or along axes. One in eight starts 10^9 sizes away. They are compared with fractions
+(GMP): where a line meets triangles, and between two such places whether a point is inside, by the
+parity of another line from there. One ray in ten at a mesh is also asked of a scene.
+
+*wrong* is a ray of which crossings are not an even number that enter and leave by turns, or which
+is inside (or outside) where it is not. For that a place may be off by its bound, and in a
+difference two that overlap by their bounds count as one. Such rays are *close calls*. In the exact
+tier any other crossings than the true ones are wrong. *error / bound* is that of t over what comes
+with each crossing, and over 0.51 ulp in the exact tier.
+
+| mesh | tier | meshes | rays | crossings | wrong | close calls | error / bound |
+|---|---|---|---|---|---|---|---|
+)";
+
 constexpr const char* agreement_table = R"(
 ## Do all queries agree?
 
@@ -250,6 +278,17 @@ std::string tree_rows(const CsgRecord& record) {
   return result;
 }
 
+std::string mesh_rows(const MeasuredMeshes& of) {
+  std::string result;
+  const MeshRecord& record = of.record;
+  for (const auto& [name, tier] : {std::pair{"standard", record.standard}, {"exact", record.exact}})
+    result +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", of.name, name, record.meshes,
+                    record.rays, record.crossings, tier.wrong, tier.close_calls,
+                    tier.largest_ratio == 0 ? "" : number(tier.largest_ratio));
+  return result;
+}
+
 std::string agreement_rows(const MeasuredAgreement& of) {
   std::string result;
   for (const auto& [name, record] : {std::pair{"standard", &of.standard}, {"exact", &of.exact}}) {
@@ -276,6 +315,7 @@ std::string accuracy_page(const MeasuredAll& all) {
             [](const MeasuredPrimitive& one) { return placed_row(one.in_place.kind, one.placed); });
   page += fmt::format(trees_table, 100 * share(all.trees.coincident_faces, all.trees.faces));
   page += tree_rows(all.trees);
+  add_table(meshes_table, all.meshes, mesh_rows);
   add_table(agreement_table, all.agreement, agreement_rows);
   return page;
 }
@@ -294,6 +334,8 @@ std::string with_rows_replaced(const std::string& page, const MeasuredAll& some)
       replacements.emplace_back(heading_of(trees_table), row + "\n");
     }
   }
+  for (const MeasuredMeshes& one : some.meshes)
+    replacements.emplace_back(heading_of(meshes_table), mesh_rows(one));
   for (const MeasuredAgreement& one : some.agreement) {
     replacements.emplace_back(heading_of(agreement_table), agreement_rows(one));
   }

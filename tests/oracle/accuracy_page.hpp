@@ -8,6 +8,7 @@
 #include "oracle/accuracy_plot.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/csg_measure.hpp"
+#include "oracle/mesh_measure.hpp"
 
 namespace crt::test {
 
@@ -24,9 +25,16 @@ struct MeasuredAgreement {
   AgreementRecord exact;
 };
 
+/// Holds what was measured of meshes of a kind, or of differences of meshes.
+struct MeasuredMeshes {
+  std::string name;
+  MeshRecord record;
+};
+
 struct MeasuredAll {
   std::vector<MeasuredPrimitive> primitives;
   CsgRecord trees;
+  std::vector<MeasuredMeshes> meshes;
   std::vector<MeasuredAgreement> agreement;
 };
 
@@ -35,13 +43,13 @@ std::string accuracy_page(const MeasuredAll& all);
 
 /// Returns the rows of a primitive in the table that compares the tiers.
 std::string tier_rows(const Measured& of);
-/// Returns the rows of trees, and of the queries' agreement.
+/// Returns the rows of trees, of meshes and of the queries' agreement.
 std::string tree_rows(const CsgRecord& record);
+std::string mesh_rows(const MeasuredMeshes& of);
 std::string agreement_rows(const MeasuredAgreement& of);
 
-/// Replaces the rows of primitives, and of trees and the agreement if any were measured, in a page
-/// that exists. Rows that it lacks become the last of their table. Throws std::runtime_error, and
-/// changes nothing, if it lacks a table.
+/// Replaces the rows of what was measured in a page that exists. Rows that it lacks become the last
+/// of their table. Throws std::runtime_error, and changes nothing, if it lacks a table.
 std::string with_rows_replaced(const std::string& page, const MeasuredAll& some);
 
 }  // namespace crt::test

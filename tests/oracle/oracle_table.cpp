@@ -1,7 +1,8 @@
-// Measures the accuracy of every primitive, and of trees of them, and whether all queries agree. It
-// writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...] With
-// names of primitives ("half plane"), "trees" or "agreement" only those are measured, and their
-// rows in the page replaced or added; the plot and everything else stays as it is.
+// Measures the accuracy of every primitive, of trees of them and of meshes, and whether all queries
+// agree. It writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...]
+// With names of primitives ("half plane"), "trees", "meshes" or "agreement" only those are
+// measured, and their rows in the page replaced or added; the plot and everything else stays as it
+// is.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -23,11 +24,14 @@ using namespace crt::test;
 namespace {
 
 constexpr std::uint64_t most_naive_rays = 1'000'000;
-/// One in so many rays is cast at a transformed primitive once more, and at trees of solids.
+/// One in so many rays is cast at a transformed primitive once more, at trees and at meshes.
 constexpr std::uint64_t placed_share = 10;
 constexpr std::uint64_t csg_share = 10;
+constexpr std::uint64_t mesh_share = 10;
+constexpr std::size_t most_triangles = 1'000'000;
 constexpr std::uint64_t rays_per_tree = 200;
 constexpr const char* trees = "trees";
+constexpr const char* meshes = "meshes";
 constexpr const char* agreement = "agreement";
 
 /// Returns nanoseconds a ray: the best of many rounds, as other work may disturb some.
@@ -129,6 +133,16 @@ class Measuring {
     tell(tree_rows(all.trees));
   }
 
+  void meshes() {
+    constexpr std::uint64_t parts = mesh_kinds + 1;
+    const std::uint64_t rays = rays_ / mesh_share / parts;
+    for (std::size_t kind = 0; kind < mesh_kinds; ++kind) {
+      const auto of = static_cast<MeshKind>(kind);
+      mesh_part({name_of(of), measure_meshes(of, most_triangles, rays)});
+    }
+    mesh_part({"mesh minus mesh", measure_mesh_differences(most_triangles, rays)});
+  }
+
   /// Asks so many rays in all, of subjects of all kinds in both tiers.
   void agreement() {
     const std::uint64_t rays = rays_ / (2 * agreement_kinds);
@@ -142,6 +156,11 @@ class Measuring {
   }
 
  private:
+  void mesh_part(MeasuredMeshes part) {
+    note(kept(part.record.failures));
+    tell(mesh_rows(part));
+    all.meshes.push_back(std::move(part));
+  }
   void note(bool is_kept) { all_kept = all_kept && is_kept; }
   static void tell(const std::string& rows) {
     fmt::print("{}", rows);
@@ -163,7 +182,7 @@ void write(const char* path, const std::string& text) {
 }
 
 bool is_known(const std::string& name) {
-  if (name == trees || name == agreement) return true;
+  if (name == trees || name == meshes || name == agreement) return true;
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
     if (name_of_primitive(kind) == name) return true;
   }
@@ -191,6 +210,7 @@ int main(int argc, char** argv) try {
     if (is_wanted(name_of_primitive(kind))) measuring.primitive(kind);
   }
   if (is_wanted(trees)) measuring.trees();
+  if (is_wanted(meshes)) measuring.meshes();
   if (is_wanted(agreement)) measuring.agreement();
   if (names.empty()) {
     write(argv[2], accuracy_page(measuring.all));
