@@ -64,7 +64,7 @@ int main() try {
   // It is a solid like any other, and is hollowed out.
   const crt::Entity vase = crt::Custom{.shape = std::make_shared<const Vase>()};
   const crt::Entity hollow = crt::Sphere{.center = {0, 0.62, 0}, .radius = 0.5};
-  const crt::Material glaze{.color = crt::Color{0.1, 0.3, 0.5}, .reflectivity = 0.08};
+  const crt::Material glaze{.color = crt::Color{0.1, 0.3, 0.5}, .specular = 0.5, .shininess = 60};
 
   crt::Scene scene;
   scene.entities = {

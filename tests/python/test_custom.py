@@ -78,7 +78,7 @@ class Customs(unittest.TestCase):
         with self.assertRaises(ValueError):
             asked(ball, lambda position, face: (1, 2))
         with self.assertRaises(TypeError):
-            asked(lambda *_: ["a", None])
+            asked(lambda *_: [None, None])
         with self.assertRaisesRegex(crt.Error, "Custom: egg: there must be 1 to 65536 faces"):
             asked(ball, faces=0)
         with self.assertRaisesRegex(TypeError, "Custom: crossings"):
