@@ -93,10 +93,6 @@ std::string refusal(const std::shared_ptr<const CustomShape>& shape,
   return "";
 }
 
-bool begins_with(const std::string& text, const std::string& start) {
-  return text.compare(0, start.size(), start) == 0;
-}
-
 Primitive random_solid(Random& random) {
   const double size = random.power_of_ten(-3, 3);
   const Vec3 at = random.in_cube() * size;
@@ -270,27 +266,27 @@ TEST_CASE("an answer that cannot be is an error that names the shape, whoever as
     return refusal(shape, asked);
   };
   CHECK(wrong({{.t = -0.5}, {.t = 0.5}}) == "");
+  CHECK(wrong({{.t = 0}}).starts_with("the odd egg: there are 1 crossings, an odd number, along "));
+  CHECK(wrong({{.t = nan}, {.t = 1}}).starts_with("the odd egg: a crossing has t = nan, along "));
+  CHECK(wrong({{.t = 0}, {.t = inf}}).starts_with("the odd egg: a crossing has t = inf, along "));
+  CHECK(wrong({{.t = 0.5}, {.t = -0.5}})
+            .starts_with("the odd egg: crossings are not in order: -0.5 comes after 0.5, along "));
+  CHECK(wrong({{.t = 0}, {.t = 7}})
+            .starts_with("the odd egg: the crossing at t = 7 is not within the bounds, along "));
+  CHECK(wrong({{.t = 0, .error = -1}, {.t = 0.5}}).starts_with("the odd egg: an error is -1, "));
+  CHECK(wrong({{.t = 0, .error = nan}, {.t = 0.5}}).starts_with("the odd egg: an error is nan, "));
+  CHECK(wrong({{.t = 0, .face = 1}, {.t = 0.5}})
+            .starts_with("the odd egg: a crossing has face 1 of 1, along "));
   CHECK(
-      begins_with(wrong({{.t = 0}}), "the odd egg: there are 1 crossings, an odd number, along "));
-  CHECK(begins_with(wrong({{.t = nan}, {.t = 1}}), "the odd egg: a crossing has t = nan, along "));
-  CHECK(begins_with(wrong({{.t = 0}, {.t = inf}}), "the odd egg: a crossing has t = inf, along "));
-  CHECK(begins_with(wrong({{.t = 0.5}, {.t = -0.5}}),
-                    "the odd egg: crossings are not in order: -0.5 comes after 0.5, along "));
-  CHECK(begins_with(wrong({{.t = 0}, {.t = 7}}),
-                    "the odd egg: the crossing at t = 7 is not within the bounds, along "));
-  CHECK(begins_with(wrong({{.t = 0, .error = -1}, {.t = 0.5}}), "the odd egg: an error is -1, "));
-  CHECK(begins_with(wrong({{.t = 0, .error = nan}, {.t = 0.5}}), "the odd egg: an error is nan, "));
-  CHECK(begins_with(wrong({{.t = 0, .face = 1}, {.t = 0.5}}),
-                    "the odd egg: a crossing has face 1 of 1, along "));
-  CHECK(begins_with(wrong(std::vector<CustomCrossing>(65538)),
-                    "the odd egg: there are 65538 crossings, and at most 65536 may be, along "));
+      wrong(std::vector<CustomCrossing>(65538))
+          .starts_with("the odd egg: there are 65538 crossings, and at most 65536 may be, along "));
 
   const auto shape = std::make_shared<Scripted>();
   shape->answered_point.normal = {0, 0, 0};
   const auto hit = [](const PreparedScene& scene) { intersect(scene, along_z); };
-  CHECK(begins_with(refusal(shape, hit), "the odd egg: the normal of face 0 at (0.1"));
+  CHECK(refusal(shape, hit).starts_with("the odd egg: the normal of face 0 at (0.1"));
   shape->answered_point = {.normal = {0, 0, 1}, .u = nan};
-  CHECK(begins_with(refusal(shape, hit), "the odd egg: (u, v) of face 0 at (0.1"));
+  CHECK(refusal(shape, hit).starts_with("the odd egg: (u, v) of face 0 at (0.1"));
 
   shape->answer = [](std::vector<CustomCrossing>& out) { out = {{.t = 0}}; };
   for (const std::function<void(const PreparedScene&)>& ask :
@@ -304,7 +300,7 @@ TEST_CASE("an answer that cannot be is an error that names the shape, whoever as
              std::vector<double> distances(rays.size());
              RayQueries(scene).distances(rays, distances);
            }}) {
-    CHECK(begins_with(refusal(shape, ask), "the odd egg: there are 1 crossings, an odd number, "));
+    CHECK(refusal(shape, ask).starts_with("the odd egg: there are 1 crossings, an odd number, "));
   }
 }
 
@@ -320,14 +316,18 @@ TEST_CASE("bounds and faces that cannot be are refused before any ray is traced"
     return "";
   };
   CHECK(fault([](Scripted&) {}) == "");
-  CHECK(begins_with(fault([](Scripted& s) { s.box.upper.x = HUGE_VAL; }),
-                    "the odd egg: bounds must be finite"));
-  CHECK(begins_with(fault([](Scripted& s) { s.box.lower.y = NAN; }),
-                    "the odd egg: bounds must be finite"));
-  CHECK(begins_with(fault([](Scripted& s) { s.box.lower.z = -2e100; }),
-                    "the odd egg: bounds must be finite and at most 1e100"));
-  CHECK(begins_with(fault([](Scripted& s) { s.box.lower.z = 1; }),
-                    "the odd egg: upper bounds must be above lower ones"));
+  CHECK(fault([](Scripted& s) {
+          s.box.upper.x = HUGE_VAL;
+        }).starts_with("the odd egg: bounds must be finite"));
+  CHECK(fault([](Scripted& s) {
+          s.box.lower.y = NAN;
+        }).starts_with("the odd egg: bounds must be finite"));
+  CHECK(fault([](Scripted& s) {
+          s.box.lower.z = -2e100;
+        }).starts_with("the odd egg: bounds must be finite and at most 1e100"));
+  CHECK(fault([](Scripted& s) {
+          s.box.lower.z = 1;
+        }).starts_with("the odd egg: upper bounds must be above lower ones"));
   CHECK(fault([](Scripted& s) { s.faces = 0; }) ==
         "the odd egg: there must be 1 to 65536 faces, but are 0");
   CHECK(fault([](Scripted& s) { s.faces = 65537; }) ==

@@ -44,10 +44,18 @@ bool are_exact(const core::CrossingList& found, const Flips& truth, double& rati
     if (crossing.entering != truth[i]->inside_after || !std::isfinite(crossing.t)) return false;
     const double off = exact_ratio(crossing.t, truth[i]->t);
     ratio = std::max(ratio, off);
-    const mpq_class sum = mpq_class(crossing.t) + mpq_class(crossing.t_low);
-    if (off > 1 || distance(sum, truth[i]->t) > mpq_class(crossing.error)) return false;
+    if (off > 1) return false;
   }
   return true;
+}
+
+/// Returns whether the sums of both parts of t are as near to the truth as the crossings say.
+bool sums_keep_bounds(const core::CrossingList& found, const Flips& truth) {
+  return std::equal(found.begin(), found.end(), truth.begin(), truth.end(),
+                    [](const core::Crossing& crossing, const MeshPlace* place) {
+                      const mpq_class sum = mpq_class(crossing.t) + mpq_class(crossing.t_low);
+                      return distance(sum, place->t) <= mpq_class(crossing.error);
+                    });
 }
 
 bool take_turns(const core::CrossingList& found) {
@@ -186,7 +194,8 @@ class MeasuredMesh {
     const core::ExactRay exact_ray{
         .near = ray, .world_origin = line.origin, .world_direction = line.direction};
     bool exact = !exact_->crossings(exact_ray, found_) &&
-                 are_exact(found_, flips, record.exact.largest_ratio);
+                 are_exact(found_, flips, record.exact.largest_ratio) &&
+                 sums_keep_bounds(found_, flips);
     for (core::Crossing& crossing : found_) crossing.error = 0;
     if (in_scenes) exact = exact && answers_alike(exact_scene_, line, found_);
     record.exact.wrong += exact ? 0 : 1;
@@ -368,13 +377,7 @@ MeshRecord measure_mesh_difference(std::size_t triangles, std::uint64_t number,
     record.crossings += flips.size();
     const Answer answer = judged(crossings_of(standard, line), truth, near_in_tree);
     count(answer, record.standard);
-    const core::CrossingList fine = crossings_of(exact, line);
-    bool is_exact = fine.size() == flips.size();
-    for (std::size_t k = 0; k < flips.size() && is_exact; ++k) {
-      const double ratio = exact_ratio(fine[k].t, flips[k]->t);
-      record.exact.largest_ratio = std::max(record.exact.largest_ratio, ratio);
-      is_exact = fine[k].entering == flips[k]->inside_after && ratio <= 1;
-    }
+    const bool is_exact = are_exact(crossings_of(exact, line), flips, record.exact.largest_ratio);
     record.exact.wrong += is_exact ? 0 : 1;
     if (is_exact && answer != Answer::wrong) continue;
     const char* const tiers =

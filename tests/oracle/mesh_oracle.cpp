@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 
 #include "oracle/line_oracle.hpp"
+#include "oracle/number_vec.hpp"
 
 namespace crt::test {
 namespace {
 
-using WholeNumbers = std::array<mpz_class, 3>;
+using WholeNumbers = NumberVec<mpz_class>;
 
 constexpr int no_exponent = std::numeric_limits<int>::max();
 constexpr double never_matters = 0x1p-960;  ///< more than what underflows
@@ -43,15 +45,6 @@ WholeNumbers whole(const Vec3& v, int exponent) {
   return result;
 }
 
-WholeNumbers less(const WholeNumbers& a, const WholeNumbers& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-WholeNumbers across(const WholeNumbers& a, const WholeNumbers& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-mpz_class along_of(const WholeNumbers& a, const WholeNumbers& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 int first_sign(const WholeNumbers& v) {
   for (const mpz_class& number : v) {
     if (sgn(number) != 0) return sgn(number);
@@ -65,13 +58,6 @@ double largest_of(const Vec3& v) {
 double length_of(const Vec3& v) {
   return std::hypot(v.x, v.y, v.z);
 }
-Vec3 cross_of(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double dot_of(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 mpq_class times_power(mpq_class q, int exponent) {
   if (exponent >= 0) {
     q <<= static_cast<unsigned>(exponent);
@@ -101,7 +87,7 @@ struct MeshOracle::Line {
     whole_direction = whole(given, direction_exponent);
   }
 
-  WholeNumbers to(const Vec3& corner) const { return less(whole(corner, exponent), whole_origin); }
+  WholeNumbers to(const Vec3& corner) const { return whole(corner, exponent) - whole_origin; }
 
   /// Returns the sign of direction . ((a - origin) x (b - origin)), or 0 where doubles leave it
   /// open. Six products make it up, each below 2 m^2 for the largest component m of the offsets.
@@ -110,13 +96,13 @@ struct MeshOracle::Line {
     const Vec3 to_a = a - origin;
     const Vec3 to_b = b - origin;
     const double size = std::max(largest_of(to_a), largest_of(to_b));
-    const double volume = dot_of(direction, cross_of(to_a, to_b));
+    const double volume = glm::dot(direction, glm::cross(to_a, to_b));
     const double open = 96 * unit_of_rounding * size * size +
                         32 * origin_error * (size + origin_error) + never_matters;
     return volume > open ? 1 : (volume < -open ? -1 : 0);
   }
   mpz_class volume(const Vec3& a, const Vec3& b) const {
-    return along_of(whole_direction, across(to(a), to(b)));
+    return dot(whole_direction, cross(to(a), to(b)));
   }
   int side(const Vec3& a, const Vec3& b) const {
     const int near = near_side(a, b);
@@ -125,7 +111,7 @@ struct MeshOracle::Line {
   /// Returns the side if the origin is moved by an infinitely small amount.
   int moved_side(const Vec3& a, const Vec3& b) const {
     if (const int sign = side(a, b)) return sign;
-    return first_sign(across(whole_direction, less(to(b), to(a))));
+    return first_sign(cross(whole_direction, to(b) - to(a)));
   }
 };
 
@@ -169,7 +155,7 @@ MeshOracle::MeshOracle(const TriangleList& mesh) {
     const Corners corners = {mesh.positions[i], mesh.positions[j], mesh.positions[k]};
     const WholeNumbers a = whole(corners[0], exponent_);
     const WholeNumbers normal =
-        across(less(whole(corners[1], exponent_), a), less(whole(corners[2], exponent_), a));
+        cross(whole(corners[1], exponent_) - a, whole(corners[2], exponent_) - a);
     if (first_sign(normal) == 0) continue;
     faces_.push_back(corners);
     for (const Vec3& corner : corners) {
@@ -244,7 +230,7 @@ void MeshOracle::for_each_near(const Line& line, const Use& use) const {
                        (std::abs(node.middle[axis]) + std::abs(line.origin[axis]) +
                         node.half[axis] + line.origin_error);
     }
-    const Vec3 across = cross_of(d, node.middle - line.origin);
+    const Vec3 across = glm::cross(d, node.middle - line.origin);
     const auto misses = [&](int axis) {
       const int j = (axis + 1) % 3;
       const int k = (axis + 2) % 3;
@@ -276,9 +262,9 @@ struct MeshOracle::Meeting {
 
   Meeting(const Corners& corners, const Line& line) {
     const WholeNumbers a = line.to(corners[0]);
-    normal = across(less(line.to(corners[1]), a), less(line.to(corners[2]), a));
-    height = along_of(normal, a);
-    rate = along_of(normal, line.whole_direction);
+    normal = cross(line.to(corners[1]) - a, line.to(corners[2]) - a);
+    height = dot(normal, a);
+    rate = dot(normal, line.whole_direction);
   }
 
   mpq_class t(const Line& line) const {
@@ -361,7 +347,7 @@ Vec3 MeshOracle::random_direction(Random& random) const {
 /// Returns the bound of MeshPlace for one triangle.
 double MeshOracle::bound_of(const Corners& corners, const Line& line, const Meeting& meeting,
                             const mpq_class& t) const {
-  mpq_class squared(along_of(meeting.normal, meeting.normal), meeting.rate * meeting.rate);
+  mpq_class squared(dot(meeting.normal, meeting.normal), meeting.rate * meeting.rate);
   squared.canonicalize();
   const double slowness = std::sqrt(times_power(squared, -2 * line.direction_exponent).get_d());
   const Vec3 middle = 0.5 * lower_ + 0.5 * upper_;
@@ -373,13 +359,13 @@ double MeshOracle::bound_of(const Corners& corners, const Line& line, const Meet
     const mpq_class step = times_power(t * line.whole_direction[i], line.direction_exponent);
     const mpq_class at = times_power(mpq_class(line.whole_origin[i]), line.exponent) + step;
     place[axis] = at.get_d() - middle[axis];
-    const double ahead = dot_of(corners[i] - corners[0], line.direction);
+    const double ahead = glm::dot(corners[i] - corners[0], line.direction);
     least = std::min(least, ahead);
     most = std::max(most, ahead);
   }
   const double size = length_of(0.5 * upper_ - 0.5 * lower_);
   const double length =
-      (most - least) / dot_of(line.direction, line.direction) * line.direction_scale;
+      (most - least) / glm::dot(line.direction, line.direction) * line.direction_scale;
   const double along_line = 8 * unit_of_rounding * (size + length_of(place)) * slowness;
   return ulp(t.get_d()) / 2 + std::min(along_line, length);
 }

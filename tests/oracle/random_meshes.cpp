@@ -5,6 +5,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "core/math/vector.hpp"
+
 namespace crt::test {
 namespace {
 
@@ -252,10 +254,6 @@ struct Extent {
   }
 };
 
-double largest_of_three(const Vec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 }  // namespace
 
 const char* name_of(MeshKind kind) {
@@ -326,10 +324,10 @@ Ray line_at(const TriangleList& mesh, Random& random) {
         break;
     }
   }
-  if (largest_of_three(direction) == 0) direction[axis()] = 1;
+  if (core::largest_component(direction) == 0) direction[axis()] = 1;
   if (random.one_in(16)) direction *= random.power_of_ten(-100, 100);
   // The size of the mesh, in lengths of the direction.
-  const double size = largest_of_three(q - p) / largest_of_three(direction);
+  const double size = core::largest_component(q - p) / core::largest_component(direction);
   const double sizes = size > 0 ? size : 1;
   const double power = std::exp2(std::ceil(std::log2(sizes)));
   double back = 0;

@@ -92,7 +92,7 @@ void CalledShape::ask(const Ray& ray, std::vector<CustomCrossing>& found) const 
   }
   // The bounds may be as tight as the program's own rounding makes them.
   constexpr double slack = 1e-6;
-  const double margin = slack * largest_component(bounds_.upper - bounds_.lower);
+  const double margin = slack * size_of(bounds_);
   double last = -infinity;
   for (CustomCrossing& crossing : found) {
     const auto& [t, error, face] = crossing;
@@ -142,7 +142,7 @@ std::size_t CalledShape::put_start(const ObjectRay& ray, const CustomLine& line,
   const Vec3 normal = unit_vector(ask(line.ray().origin, ray.start.face).normal);
   const double cosine = std::abs(glm::dot(normal, line.ray().direction));
   // Where a ray grazes, the other end of its chord bounds the error, for curves up to this radius.
-  const double radius = largest_component(bounds_.upper - bounds_.lower);
+  const double radius = size_of(bounds_);
   const double along = std::min(across / cosine, 2 * std::sqrt(across * radius));
 
   std::size_t start = found.size();

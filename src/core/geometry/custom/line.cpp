@@ -8,10 +8,6 @@ namespace crt::core {
 
 namespace {
 
-double size_of(const Bounds& bounds) {
-  return largest_component(bounds.upper - bounds.lower);
-}
-
 NearLine line_near(const Bounds& bounds, const ObjectRay& ray) {
   const double unit = power_of_two_below(size_of(bounds));
   // A start is near as it is, and stays where it is.

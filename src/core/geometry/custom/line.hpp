@@ -11,6 +11,11 @@ inline Vec3 middle_of(const Bounds& bounds) {
   return bounds.lower + 0.5 * (bounds.upper - bounds.lower);
 }
 
+/// Returns the longest side of bounds.
+inline double size_of(const Bounds& bounds) {
+  return largest_component(bounds.upper - bounds.lower);
+}
+
 /// A CustomLine is a ray as a custom shape is asked along it. Places on it are s, in scene units:
 /// the t of the ray that is handed over.
 class CustomLine {
