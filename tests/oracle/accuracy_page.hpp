@@ -8,6 +8,7 @@
 #include "oracle/accuracy_plot.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/csg_measure.hpp"
+#include "oracle/field_measure.hpp"
 #include "oracle/mesh_measure.hpp"
 
 namespace crt::test {
@@ -31,10 +32,17 @@ struct MeasuredMeshes {
   MeshRecord record;
 };
 
+/// Holds what was measured of fields of a kind.
+struct MeasuredFields {
+  std::string name;
+  FieldRecord record;
+};
+
 struct MeasuredAll {
   std::vector<MeasuredPrimitive> primitives;
   CsgRecord trees;
   std::vector<MeasuredMeshes> meshes;
+  std::vector<MeasuredFields> fields;
   std::vector<MeasuredAgreement> agreement;
 };
 
@@ -43,9 +51,10 @@ std::string accuracy_page(const MeasuredAll& all);
 
 /// Returns the rows of a primitive in the table that compares the tiers.
 std::string tier_rows(const Measured& of);
-/// Returns the rows of trees, of meshes and of the queries' agreement.
+/// Returns the rows of trees, of meshes, of fields and of the queries' agreement.
 std::string tree_rows(const CsgRecord& record);
 std::string mesh_rows(const MeasuredMeshes& of);
+std::string field_rows(const MeasuredFields& of);
 std::string agreement_rows(const MeasuredAgreement& of);
 
 /// Replaces the rows of what was measured in a page that exists. Rows that it lacks become the last

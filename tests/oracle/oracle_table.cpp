@@ -1,8 +1,8 @@
-// Measures the accuracy of every primitive, of trees of them and of meshes, and whether all queries
-// agree. It writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...]
-// With names of primitives ("half plane"), "trees", "meshes" or "agreement" only those are
-// measured, and their rows in the page replaced or added; the plot and everything else stays as it
-// is.
+// Measures the accuracy of every primitive, of trees of them, of meshes and of fields, and whether
+// all queries agree. It writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT
+// [PRIMITIVE...] With names of primitives ("half plane"), "trees", "meshes", "fields" or
+// "agreement" only those are measured, and their rows in the page replaced or added; the plot and
+// everything else stays as it is.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -28,10 +28,13 @@ constexpr std::uint64_t most_naive_rays = 1'000'000;
 constexpr std::uint64_t placed_share = 10;
 constexpr std::uint64_t csg_share = 10;
 constexpr std::uint64_t mesh_share = 10;
+constexpr std::uint64_t field_share = 10;
 constexpr std::size_t most_triangles = 1'000'000;
 constexpr std::uint64_t rays_per_tree = 200;
+constexpr std::uint64_t rays_per_field = 200;
 constexpr const char* trees = "trees";
 constexpr const char* meshes = "meshes";
+constexpr const char* fields = "fields";
 constexpr const char* agreement = "agreement";
 
 /// Returns nanoseconds a ray: the best of many rounds, as other work may disturb some.
@@ -143,6 +146,17 @@ class Measuring {
     mesh_part({"mesh minus mesh", measure_mesh_differences(most_triangles, rays)});
   }
 
+  void fields() {
+    const std::uint64_t each = rays_ / field_share / field_kinds / rays_per_field;
+    for (std::size_t kind = 0; kind < field_kinds; ++kind) {
+      const auto of = static_cast<FieldKind>(kind);
+      all.fields.push_back(
+          {name_of(of), measure_fields(of, std::max<std::uint64_t>(1, each), rays_per_field)});
+      note(kept(all.fields.back().record.failures));
+      tell(field_rows(all.fields.back()));
+    }
+  }
+
   /// Asks so many rays in all, of subjects of all kinds in both tiers.
   void agreement() {
     const std::uint64_t rays = rays_ / (2 * agreement_kinds);
@@ -182,7 +196,9 @@ void write(const char* path, const std::string& text) {
 }
 
 bool is_known(const std::string& name) {
-  if (name == trees || name == meshes || name == agreement) return true;
+  for (const char* known : {trees, meshes, fields, agreement}) {
+    if (name == known) return true;
+  }
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
     if (name_of_primitive(kind) == name) return true;
   }
@@ -211,6 +227,7 @@ int main(int argc, char** argv) try {
   }
   if (is_wanted(trees)) measuring.trees();
   if (is_wanted(meshes)) measuring.meshes();
+  if (is_wanted(fields)) measuring.fields();
   if (is_wanted(agreement)) measuring.agreement();
   if (names.empty()) {
     write(argv[2], accuracy_page(measuring.all));
