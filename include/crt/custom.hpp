@@ -6,6 +6,7 @@
 #include <crt/bounding_box.hpp>
 #include <crt/ray.hpp>
 #include <crt/vec.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,6 +37,9 @@ struct CustomPoint {
 /// and when a scene is prepared.
 class CustomShape {
  public:
+  /// A ray has at most so many crossings.
+  static constexpr std::size_t most_crossings = 65536;
+
   CustomShape() = default;
   CustomShape(const CustomShape&) = delete;
   CustomShape& operator=(const CustomShape&) = delete;
@@ -48,7 +52,7 @@ class CustomShape {
 
   /// Appends what the ray crosses from ray.t_min to ray.t_max, which is where it is within the
   /// bounds: in ascending t, first where it enters the solid, then where it leaves it, and so on.
-  /// So there is an even number of crossings, of at most 65536. The direction has unit length, t
+  /// So there is an even number, of at most most_crossings. The direction has unit length, t
   /// may be negative, and the origin is near the bounds. A ray that only touches the solid may have
   /// no crossings or two.
   ///

@@ -68,8 +68,6 @@ class CalledBack final : public CustomShape {
   std::string name() const override { return name_; }
 
  private:
-  static constexpr std::size_t most_crossings = 65536;
-
   static void stop_for(int answer) {
     if (answer != 0) throw CancelledByCallback{answer};
   }

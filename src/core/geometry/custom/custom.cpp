@@ -15,7 +15,6 @@ namespace crt::core {
 namespace {
 
 constexpr std::uint32_t most_faces = Shape::most_compared_faces;
-constexpr std::size_t most_crossings = 65536;
 
 std::string text_of(const Vec3& v) {
   return fmt::format("({}, {}, {})", v.x, v.y, v.z);
@@ -83,9 +82,9 @@ void CalledShape::ask(const Ray& ray, std::vector<CustomCrossing>& found) const 
   const auto refuse = [&](const std::string& complaint) {
     refuse_crossings(*shape_, ray, complaint);
   };
-  if (found.size() > most_crossings) {
-    refuse(
-        fmt::format("there are {} crossings, and at most {} may be", found.size(), most_crossings));
+  if (found.size() > CustomShape::most_crossings) {
+    refuse(fmt::format("there are {} crossings, and at most {} may be", found.size(),
+                       CustomShape::most_crossings));
   }
   if (found.size() % 2 != 0) {
     refuse(fmt::format("there are {} crossings, an odd number", found.size()));
