@@ -1,5 +1,6 @@
 #include "core/math/interval.hpp"
 
+#include <crt/elementary.hpp>
 #include <numbers>
 
 namespace crt::core {
@@ -16,7 +17,7 @@ Interval range_of_wave(const Interval& a, double at_low, double at_high, double 
   return result;
 }
 
-/// Returns the range of sine or cosine near a centre, where the C library has given its value and
+/// Returns the range of sine or cosine near a centre, whose value there is given and
 /// its slope. No second derivative is above 1.
 Interval series(double value, double slope, const Interval& x, double center) {
   constexpr double roundings = 0x1p-49;
@@ -37,7 +38,7 @@ Interval series(double value, double slope, const Interval& x, double center) {
 double power_of_size(double x, double exponent) {
   // Each product is off by half a unit.
   constexpr double most_products = 8;
-  if (exponent > most_products) return std::pow(x, exponent);
+  if (exponent > most_products) return elementary::pow(x, exponent);
   double result = x;
   for (double i = 1; i < exponent; ++i) result *= x;
   return result;
@@ -60,22 +61,22 @@ Interval square_root(const Interval& a) {
 }
 
 Interval exponential(const Interval& a) {
-  const Interval result = around(std::exp(a.lo), std::exp(a.hi));
+  const Interval result = around(elementary::exp(a.lo), elementary::exp(a.hi));
   return {std::max(0.0, result.lo), result.hi};
 }
 
 Interval logarithm(const Interval& a) {
-  return around(std::log(a.lo), std::log(a.hi));
+  return around(elementary::log(a.lo), elementary::log(a.hi));
 }
 
 Interval sine(const Interval& a) {
   if (!(a.width() < 2 * pi)) return {-1, 1};
-  return range_of_wave(a, std::sin(a.lo), std::sin(a.hi), pi / 2);
+  return range_of_wave(a, elementary::sin(a.lo), elementary::sin(a.hi), pi / 2);
 }
 
 Interval cosine(const Interval& a) {
   if (!(a.width() < 2 * pi)) return {-1, 1};
-  return range_of_wave(a, std::cos(a.lo), std::cos(a.hi), 0);
+  return range_of_wave(a, elementary::cos(a.lo), elementary::cos(a.hi), 0);
 }
 
 Wave wave(const Interval& middle, const Interval& all) {
@@ -85,8 +86,8 @@ Wave wave(const Interval& middle, const Interval& all) {
   const Interval& about = is_narrow ? all : middle;
   const double center = about.lo + 0.5 * about.width();
   if (!(about.width() <= widest)) return {{-1, 1}, {-1, 1}, sine(all), cosine(all)};
-  const double s = std::sin(center);
-  const double c = std::cos(center);
+  const double s = elementary::sin(center);
+  const double c = elementary::cos(center);
   Wave result = {series(s, c, middle, center), series(c, -s, middle, center), {}, {}};
   if (is_narrow) {
     result.sine = series(s, c, all, center);
@@ -100,19 +101,19 @@ Wave wave(const Interval& middle, const Interval& all) {
 
 Interval tangent(const Interval& a) {
   if (!(a.width() < pi) || may_contain_turn(a, pi / 2, pi)) return Interval::everything();
-  return around(std::tan(a.lo), std::tan(a.hi));
+  return around(elementary::tan(a.lo), elementary::tan(a.hi));
 }
 
 Interval arc_sine(const Interval& a) {
-  return around(std::asin(a.lo), std::asin(a.hi));
+  return around(elementary::asin(a.lo), elementary::asin(a.hi));
 }
 
 Interval arc_cosine(const Interval& a) {
-  return around(std::acos(a.hi), std::acos(a.lo));
+  return around(elementary::acos(a.hi), elementary::acos(a.lo));
 }
 
 Interval arc_tangent(const Interval& a) {
-  return around(std::atan(a.lo), std::atan(a.hi));
+  return around(elementary::atan(a.lo), elementary::atan(a.hi));
 }
 
 Interval whole_power(const Interval& a, double exponent) {
@@ -126,7 +127,7 @@ Interval whole_power(const Interval& a, double exponent) {
 }
 
 Interval power(const Interval& a, double exponent) {
-  const Interval result = around(std::pow(a.lo, exponent), std::pow(a.hi, exponent));
+  const Interval result = around(elementary::pow(a.lo, exponent), elementary::pow(a.hi, exponent));
   return {std::max(0.0, result.lo), result.hi};
 }
 
