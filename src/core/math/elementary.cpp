@@ -19,6 +19,7 @@
 
 #include "core/math/double_double.hpp"
 #include "core/math/elementary_tables.hpp"
+#include "core/math/polynomial.hpp"
 
 namespace crt::elementary {
 
@@ -26,6 +27,7 @@ namespace {
 
 using namespace core::elementary_tables;
 using core::DoubleDouble;
+using core::polynomial;
 using core::quick_two_sum;
 using core::two_product;
 using core::two_sum;
@@ -47,14 +49,6 @@ double nearest(double x) {
 double power_of_two(int exponent) {
   constexpr int bias = 1023;
   return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + bias) << fraction_bits);
-}
-
-/// Returns a polynomial by Horner's rule.
-template <std::size_t count>
-double polynomial(double x, const std::array<double, count>& coefficients) {
-  double result = coefficients.back();
-  for (std::size_t i = count - 1; i > 0; --i) result = std::fma(result, x, coefficients[i - 1]);
-  return result;
 }
 
 /// Returns x 2^exponent rounded once, for x from 1/2 to 2.
@@ -163,10 +157,10 @@ SineAndCosine of_rest(DoubleDouble angle) {
   constexpr std::array<double, 3> of_cosine = {1.0 / 24, -1.0 / 720, 1.0 / 40320};
   const DoubleDouble square = two_product(d.hi, d.hi);
   const double cubic =
-      std::fma(-0.5 * square.hi, d.lo, square.hi * d.hi * polynomial(square.hi, of_sine));
+      std::fma(-0.5 * square.hi, d.lo, square.hi * d.hi * polynomial(of_sine, square.hi));
   const DoubleDouble sine = quick_two_sum(d.hi, d.lo + cubic);
   const double beyond_square = std::fma(-d.hi, d.lo, -0.5 * square.lo) +
-                               square.hi * square.hi * polynomial(square.hi, of_cosine);
+                               square.hi * square.hi * polynomial(of_cosine, square.hi);
   const DoubleDouble cosine_less_one = quick_two_sum(-0.5 * square.hi, beyond_square);
 
   SineAndCosine result;
@@ -202,7 +196,7 @@ DoubleDouble angle_to_eighth(const DoubleDouble& y, const DoubleDouble& x) {
   }
   constexpr std::array<double, 5> coefficients = {-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11};
   const double square = t.hi * t.hi;
-  const double beyond = std::fma(-square, t.lo, square * t.hi * polynomial(square, coefficients));
+  const double beyond = std::fma(-square, t.lo, square * t.hi * polynomial(coefficients, square));
   const DoubleDouble angle = quick_two_sum(t.hi, t.lo + beyond);
   return step == 0 ? angle : angles_of_tangents[static_cast<std::size_t>(step)] + angle;
 }
@@ -237,7 +231,7 @@ double exponential(const DoubleDouble& x) {
   constexpr std::array<double, 6> coefficients = {1.0 / 2,   1.0 / 6,   1.0 / 24,
                                                   1.0 / 120, 1.0 / 720, 1.0 / 5040};
   const double beyond =
-      std::fma(rest.hi, rest.lo, rest.hi * rest.hi * polynomial(rest.hi, coefficients));
+      std::fma(rest.hi, rest.lo, rest.hi * rest.hi * polynomial(coefficients, rest.hi));
   const DoubleDouble less_one = quick_two_sum(rest.hi, rest.lo + beyond);
   const int steps = static_cast<int>(count);
   const int exponent = steps >> 6;
@@ -274,7 +268,7 @@ DoubleDouble logarithm(DoubleDouble x) {
   constexpr std::array<double, 9> coefficients = {1.0 / 5,   -1.0 / 6, 1.0 / 7,   -1.0 / 8, 1.0 / 9,
                                                   -1.0 / 10, 1.0 / 11, -1.0 / 12, 1.0 / 13};
   constexpr DoubleDouble third(0x1.5555555555555p-2, 0x1.5555555555555p-56);
-  const DoubleDouble from_4th = quick_two_sum(0.25, -z.hi * polynomial(z.hi, coefficients));
+  const DoubleDouble from_4th = quick_two_sum(0.25, -z.hi * polynomial(coefficients, z.hi));
   const DoubleDouble from_3rd = third - z * from_4th;
   const DoubleDouble from_2nd = DoubleDouble(0.5) - z * from_3rd;
   const DoubleDouble series = z - z * z * from_2nd;
