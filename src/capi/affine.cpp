@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <crt/elementary.hpp>
 
 #include "capi/guard.hpp"
 #include "crt/crt.h"
@@ -34,8 +35,8 @@ struct SineCosine {
 SineCosine sine_cosine(double angle) {
   // The cosine of the double next to pi / 2 is 6e-17. All other angles of some turns are farther.
   constexpr double rounding = 0x1p-52;
-  const double sine = std::sin(angle);
-  const double cosine = std::cos(angle);
+  const double sine = elementary::sin(angle);
+  const double cosine = elementary::cos(angle);
   const double margin = rounding * std::max(1.0, std::abs(angle));
   if (std::abs(cosine) <= margin) return {std::copysign(1.0, sine), 0};
   if (std::abs(sine) <= margin && angle != 0) return {0, std::copysign(1.0, cosine)};
@@ -65,7 +66,7 @@ std::array<double, 3> unit_vector(const double* axis) {
   const std::array<double, 3> scaled = {std::scalbn(axis[0], exponent),
                                         std::scalbn(axis[1], exponent),
                                         std::scalbn(axis[2], exponent)};
-  const double length = std::hypot(scaled[0], scaled[1], scaled[2]);
+  const double length = elementary::hypot(scaled[0], scaled[1], scaled[2]);
   return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
 }
 

@@ -1,6 +1,7 @@
 #include "cli/drawing.hpp"
 
 #include <fmt/format.h>
+#include <crt/elementary.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ const char* name_of(Anchor anchor) {
 }
 
 double distance(const Place& a, const Place& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
+  return elementary::hypot(a.x - b.x, a.y - b.y);
 }
 
 double distance_to_line(const Place& place, const Place& from, const Place& to) {

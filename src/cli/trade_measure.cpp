@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <numeric>
 
 namespace crt::cli {
@@ -10,7 +11,7 @@ namespace {
 
 double shown(float value, double exponent) {
   const double level = value > 0 ? std::min(double{value}, 1.0) : 0.0;
-  return exponent == 1 ? level : std::pow(level, exponent);
+  return exponent == 1 ? level : elementary::pow(level, exponent);
 }
 
 /// Returns the value that `share` of them do not exceed.

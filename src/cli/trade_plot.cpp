@@ -1,5 +1,6 @@
 // The plot of `crt trade` shows seconds against each of the two errors, both logarithmic.
 #include <fmt/format.h>
+#include <crt/elementary.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +35,8 @@ struct Decades {
 
   /// Returns 0 at the low end and 1 at the high one.
   double share(double value) const {
-    const double least = std::pow(10.0, low);
-    return (std::log10(std::max(value, least)) - low) / (high - low);
+    const double least = elementary::pow(10.0, low);
+    return (elementary::log10(std::max(value, least)) - low) / (high - low);
   }
 };
 
@@ -45,14 +46,14 @@ Decades decades_of(const std::vector<double>& values) {
   constexpr double least = 1e-4;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   Decades decades;
-  decades.low = static_cast<int>(std::floor(std::log10(std::max(*low, least))));
-  decades.high =
-      std::max(static_cast<int>(std::ceil(std::log10(std::max(*high, least)))), decades.low + 1);
+  decades.low = static_cast<int>(std::floor(elementary::log10(std::max(*low, least))));
+  decades.high = std::max(static_cast<int>(std::ceil(elementary::log10(std::max(*high, least)))),
+                          decades.low + 1);
   return decades;
 }
 
 std::string power_of_ten(int exponent) {
-  return fmt::format("{:g}", std::pow(10.0, exponent));
+  return fmt::format("{:g}", elementary::pow(10.0, exponent));
 }
 
 /// A Panel shows one error against seconds.
@@ -98,12 +99,12 @@ class Panel {
     constexpr double text_below = 16;
     drawing_.text(corner(left, top - 12), title);
     for (int power = seconds_.low; power <= seconds_.high; ++power) {
-      const Place foot = at(std::pow(10.0, power), 0);
+      const Place foot = at(elementary::pow(10.0, power), 0);
       drawing_.line(foot, {foot.x, corner_.y + top}, grid_ink);
       drawing_.text({foot.x, foot.y + text_below}, power_of_ten(power), Anchor::middle);
     }
     for (int power = errors_.low; power <= errors_.high; ++power) {
-      const Place foot = at(0, std::pow(10.0, power));
+      const Place foot = at(0, elementary::pow(10.0, power));
       drawing_.line(foot, {corner_.x + right, foot.y}, grid_ink);
       drawing_.text({foot.x - 6, foot.y + 4}, power_of_ten(power), Anchor::end);
     }

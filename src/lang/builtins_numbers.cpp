@@ -1,5 +1,6 @@
 // This file has the built-ins that compute numbers: trigonometry, powers, rounding, random numbers.
 #include <fmt/format.h>
+#include <crt/elementary.hpp>
 
 #include <algorithm>
 #include <array>
@@ -33,31 +34,31 @@ Value of_number(const Arguments& arguments) {
 
 // The standard's functions are overloaded, and a template argument must be one of them.
 double sine(double x) {
-  return std::sin(x);
+  return elementary::sin(x);
 }
 double cosine(double x) {
-  return std::cos(x);
+  return elementary::cos(x);
 }
 double tangent(double x) {
-  return std::tan(x);
+  return elementary::tan(x);
 }
 double arc_sine(double x) {
-  return std::asin(x);
+  return elementary::asin(x);
 }
 double arc_cosine(double x) {
-  return std::acos(x);
+  return elementary::acos(x);
 }
 double arc_tangent(double x) {
-  return std::atan(x);
+  return elementary::atan(x);
 }
 double square_root(double x) {
   return std::sqrt(x);
 }
 double exponential(double x) {
-  return std::exp(x);
+  return elementary::exp(x);
 }
 double logarithm(double x) {
-  return std::log(x);
+  return elementary::log(x);
 }
 double floor_of(double x) {
   return std::floor(x);
@@ -104,12 +105,12 @@ Value of_fields(const Arguments& arguments) {
 
 Value arc_tangent_of_two(const Arguments& arguments) {
   if (arguments.any_field()) return of_fields<crt::atan2>(arguments);
-  return std::atan2(arguments.number(0), arguments.number(1));
+  return elementary::atan2(arguments.number(0), arguments.number(1));
 }
 
 Value power(const Arguments& arguments) {
   if (arguments.any_field()) return of_fields<crt::pow>(arguments);
-  return std::pow(arguments.number(0), arguments.number(1));
+  return elementary::pow(arguments.number(0), arguments.number(1));
 }
 
 /// Returns the least or greatest argument: an Integer if all are Integers, else a Float.

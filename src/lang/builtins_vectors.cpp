@@ -1,6 +1,7 @@
 // This file has the built-ins that make and measure Vec3s and Colors.
 #include <array>
 #include <cmath>
+#include <crt/elementary.hpp>
 
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
@@ -19,7 +20,7 @@ Value make_color(const Arguments& arguments) {
 }
 
 double norm(const Vec3& v) {
-  return std::hypot(v.x, v.y, v.z);
+  return elementary::hypot(v.x, v.y, v.z);
 }
 
 Value length(const Arguments& arguments) {

@@ -1,6 +1,7 @@
 #include "lang/operators.hpp"
 
 #include <fmt/format.h>
+#include <crt/elementary.hpp>
 
 #include <cmath>
 #include <limits>
@@ -58,7 +59,8 @@ const char* sign(BinaryOperator op) {
 
 /// Computes base ** exponent by squaring. A negative exponent gives a Float.
 Value integer_power(Span span, std::int64_t base, std::int64_t exponent) {
-  if (exponent < 0) return std::pow(static_cast<double>(base), static_cast<double>(exponent));
+  if (exponent < 0)
+    return elementary::pow(static_cast<double>(base), static_cast<double>(exponent));
   std::int64_t result = 1;
   for (;;) {
     if ((exponent & 1) != 0 && __builtin_mul_overflow(result, base, &result)) overflow(span);
@@ -123,7 +125,7 @@ bool is_comparison(BinaryOperator op) {
 Value floats(BinaryOperator op, Span span, double a, double b) {
   switch (op) {
     case BinaryOperator::power:
-      return std::pow(a, b);
+      return elementary::pow(a, b);
     case BinaryOperator::add:
       return a + b;
     case BinaryOperator::subtract:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <cstddef>
 #include <numbers>
 
@@ -78,11 +79,11 @@ LensPoint gaussian_point(double u, double v) {
   // / (2 sigma^2)). This is divided by its value at the cut, and solved for r.
   constexpr double two_variances = 2 * 0.5 * 0.5;
   constexpr double cut_radius = 2;
-  const double share_within_cut = -std::expm1(-cut_radius * cut_radius / two_variances);
+  const double share_within_cut = 1 - elementary::exp(-cut_radius * cut_radius / two_variances);
   const double radius =
-      std::min(cut_radius, std::sqrt(-two_variances * std::log1p(-u * share_within_cut)));
+      std::min(cut_radius, std::sqrt(-two_variances * elementary::log1p(-u * share_within_cut)));
   const double angle = 2 * std::numbers::pi * v;
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  return {radius * elementary::cos(angle), radius * elementary::sin(angle)};
 }
 
 LensPoint triangle_point(double u, double v) {

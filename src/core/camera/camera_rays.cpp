@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/math/direction_and_length.hpp"
@@ -20,7 +21,7 @@ Vec3 unit(const Vec3& v) {
 /// or down. There the direction's component across y is more rounding than intention.
 Vec3 reference_up(const Vec3& forward) {
   constexpr double vertical_angle = 1e-9;
-  const bool vertical = std::hypot(forward.x, forward.z) < vertical_angle;
+  const bool vertical = elementary::hypot(forward.x, forward.z) < vertical_angle;
   return vertical ? Vec3(0, 0, 1) : Vec3(0, 1, 0);
 }
 
@@ -41,15 +42,15 @@ CameraRays::CameraRays(const Camera& camera, int width, int height, int compat)
       lens_radius_(compat == compat_2015 ? camera.aperture / height_ : camera.aperture / 1000) {
   const Vec3 level_right = unit(glm::cross(reference_up(forward_), forward_));
   const Vec3 level_up = glm::cross(forward_, level_right);
-  const double cosine = std::cos(camera.roll);
-  const double sine = std::sin(camera.roll);
+  const double cosine = elementary::cos(camera.roll);
+  const double sine = elementary::sin(camera.roll);
   right_ = unit(cosine * level_right - sine * level_up);
   up_ = unit(cosine * level_up + sine * level_right);
 
   const double aspect = width_ / height_;
   lens_right_ = compat == compat_2015 ? right_ / aspect : right_;
   const double half_angle = camera.fov / 2;
-  const double half_length = std::tan(half_angle);
+  const double half_length = elementary::tan(half_angle);
   half_across_ = (turns_across(projection_) ? half_angle : half_length) * aspect;
   half_up_ = projection_ == Projection::spherical ? half_angle : half_length;
 }
@@ -72,7 +73,7 @@ std::optional<PicturePlace> CameraRays::place_of(const Vec3& point) const {
   const double to_top = glm::dot(direction, up_);
   const double depth = glm::dot(direction, forward_);
   if (depth <= 0 && !turns_across(projection_)) return std::nullopt;
-  const double level = std::hypot(to_right, depth);
+  const double level = elementary::hypot(to_right, depth);
   double nx = 0;
   double ny = 0;
   switch (projection_) {
@@ -81,11 +82,11 @@ std::optional<PicturePlace> CameraRays::place_of(const Vec3& point) const {
       ny = to_top / depth;
       break;
     case Projection::spherical:
-      nx = std::atan2(to_right, depth);
-      ny = std::atan2(to_top, level);
+      nx = elementary::atan2(to_right, depth);
+      ny = elementary::atan2(to_top, level);
       break;
     case Projection::cylindrical:
-      nx = std::atan2(to_right, depth);
+      nx = elementary::atan2(to_right, depth);
       ny = to_top / level;
       break;
     case Projection::orthographic:
@@ -195,14 +196,14 @@ Vec3 CameraRays::to_plane(double nx, double ny) const {
 void CameraRays::spherical_ray(double nx, double ny, CameraRay& ray) const {
   const double longitude = nx * half_across_;
   const double latitude = ny * half_up_;
-  const Vec3 level = std::cos(longitude) * forward_ + std::sin(longitude) * right_;
+  const Vec3 level = elementary::cos(longitude) * forward_ + elementary::sin(longitude) * right_;
   ray.origin = position_;
-  ray.direction = unit(std::cos(latitude) * level + std::sin(latitude) * up_);
+  ray.direction = unit(elementary::cos(latitude) * level + elementary::sin(latitude) * up_);
 }
 
 void CameraRays::cylindrical_ray(double nx, double ny, CameraRay& ray) const {
   const double longitude = nx * half_across_;
-  const Vec3 level = std::cos(longitude) * forward_ + std::sin(longitude) * right_;
+  const Vec3 level = elementary::cos(longitude) * forward_ + elementary::sin(longitude) * right_;
   ray.origin = position_;
   ray.direction = unit(level + (ny * half_up_) * up_);
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <numbers>
 #include <vector>
 
@@ -31,7 +32,7 @@ void append_circular_arc(Contour& contour, double bulge, const Vec2& end) {
   if (std::abs(bulge) <= 1) return append(begin, end, bulge);
   const Vec2 chord = end - begin;
   const Vec2 middle = begin + 0.5 * chord - 0.5 * bulge * quarter_turned(chord);
-  const double half = bulge / (1 + std::hypot(1.0, bulge));
+  const double half = bulge / (1 + elementary::hypot(1.0, bulge));
   append(begin, middle, half);
   append(middle, end, half);
 }
@@ -53,12 +54,14 @@ struct EllipseFrame {
 /// Returns an arc of the unit circle from the origin as so many cubics. It begins in a direction,
 /// given as an angle, and turns by another angle.
 std::vector<Cubic> cubics_of_arc(double begin, double turn, int count) {
-  const auto direction = [](double angle) { return Vec2(std::cos(angle), std::sin(angle)); };
+  const auto direction = [](double angle) {
+    return Vec2(elementary::cos(angle), elementary::sin(angle));
+  };
   const auto at = [&](double angle) {
-    return 2 * std::sin(0.5 * std::abs(angle)) * direction(begin + 0.5 * angle);
+    return 2 * elementary::sin(0.5 * std::abs(angle)) * direction(begin + 0.5 * angle);
   };
   const double step = turn / count;
-  const double reach = 4.0 / 3.0 * std::tan(0.25 * std::abs(step));
+  const double reach = 4.0 / 3.0 * elementary::tan(0.25 * std::abs(step));
   std::vector<Cubic> cubics;
   for (int i = 0; i < count; ++i) {
     const double from = i * step;
@@ -72,9 +75,9 @@ std::vector<Cubic> cubics_of_arc(double begin, double turn, int count) {
 /// Returns how far such a cubic is from the unit circle.
 /// Source: M. Goldapp, Approximation of circular arcs by cubic polynomials, 1991.
 double error_of_cubic(double angle) {
-  const double sine = std::sin(0.25 * angle);
-  const double cosine = std::cos(0.25 * angle);
-  return 4.0 / 27.0 * std::pow(sine, 6) / (cosine * cosine);
+  const double sine = elementary::sin(0.25 * angle);
+  const double cosine = elementary::cos(0.25 * angle);
+  return 4.0 / 27.0 * elementary::pow(sine, 6) / (cosine * cosine);
 }
 
 /// Adds an arc of an ellipse, whose bulge is that of the circle's arc which the frame maps to it.
@@ -83,8 +86,8 @@ void append_arc_of_ellipse(Contour& contour, const EllipseFrame& frame, double b
   const CurvePoint origin{contour.back().x, contour.back().y};
   const Vec2 way(end.x - origin.x, end.y - origin.y);
   const Vec2 chord = frame.to_unit(way);
-  const double turn = 4 * std::atan(bulge);
-  const double begin = std::atan2(chord.y, chord.x) - 0.5 * turn;
+  const double turn = 4 * elementary::atan(bulge);
+  const double begin = elementary::atan2(chord.y, chord.x) - 0.5 * turn;
   constexpr double usual_step = std::numbers::pi / 8;
   int count = static_cast<int>(std::ceil(std::abs(turn) / usual_step));
   const auto points = [&] {
@@ -142,7 +145,7 @@ void append_elliptical_arc(Contour& contour, const EllipticalArc& arc, const Cur
   const bool is_circle = frame.radius_x == frame.radius_y;
   if (!is_circle) {
     const double angle = std::fmod(arc.turned, 360.0) * (std::numbers::pi / 180);
-    frame.axis = {std::cos(angle), std::sin(angle)};
+    frame.axis = {elementary::cos(angle), elementary::sin(angle)};
   }
   double half_chord = 0.5 * glm::length(frame.to_unit(way));
   if (half_chord > 1) {

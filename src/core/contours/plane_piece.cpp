@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <crt/elementary.hpp>
 
 namespace crt::core {
 
@@ -109,15 +110,15 @@ double PlanePiece::order_of(const Vec2& point) const {
 /// goes at first. It is half of what the arc turns by until there.
 double PlanePiece::angle_to(const Vec2& point) const {
   const Vec2 offset = point - from_;
-  const double to_chord = std::atan2(cross(along_, offset), dot(along_, offset));
-  return to_chord + 2 * std::atan(bulge_);
+  const double to_chord = elementary::atan2(cross(along_, offset), dot(along_, offset));
+  return to_chord + 2 * elementary::atan(bulge_);
 }
 
 double PlanePiece::bulge_between(const Vec2& first, const Vec2& second) const {
   if (bulge_ == 0) return 0;
   const double begin = first == from_ ? 0 : angle_to(first);
-  const double end = second == to_ ? 2 * std::atan(bulge_) : angle_to(second);
-  return std::tan(0.5 * (end - begin));
+  const double end = second == to_ ? 2 * elementary::atan(bulge_) : angle_to(second);
+  return elementary::tan(0.5 * (end - begin));
 }
 
 bool PlanePiece::is_left_of_chord(const Vec2& point) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <limits>
 
 #include "core/csg/entity_node.hpp"
@@ -82,7 +83,7 @@ void require_usable(const core::PreciseTransform& transform) {
   }
   // The determinant is that of the map with its largest entry brought to about 1, where 0 means
   // flat.
-  const double unit = std::exp2(-std::ilogb(largest));
+  const double unit = std::ldexp(1.0, -std::ilogb(largest));
   const core::PreciseTransform scaled(
       Transform{map.row_x * unit, map.row_y * unit, map.row_z * unit, Vec3(0)});
   bool flat = !(std::abs(core::determinant(scaled).value()) > std::numeric_limits<double>::min());

@@ -1,6 +1,12 @@
 #include "core/math/interval.hpp"
 
+#include <array>
+#include <crt/elementary.hpp>
+#include <cstdint>
 #include <numbers>
+
+#include "core/math/elementary_tables.hpp"
+#include "core/math/polynomial.hpp"
 
 namespace crt::core {
 
@@ -16,8 +22,45 @@ Interval range_of_wave(const Interval& a, double at_low, double at_high, double 
   return result;
 }
 
-/// Returns the range of sine or cosine near a centre, where the C library has given its value and
-/// its slope. No second derivative is above 1.
+struct QuickWave {
+  double sine;
+  double cosine;
+};
+
+/// Returns sine and cosine of x, each within four units in the last place, in a fifth of the time
+/// that the two functions take. Most of the error is that of x less its quarters of a turn, whose
+/// three parts add up to pi / 2.
+QuickWave quick_wave(double x) {
+  constexpr double farthest = 0x1p25;
+  if (!(std::abs(x) < farthest)) return {elementary::sin(x), elementary::cos(x)};
+  constexpr std::array<double, 8> of_sine = {
+      -1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
+      -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
+  constexpr std::array<double, 8> of_cosine = {
+      -1.0 / 2,       1.0 / 24,        -1.0 / 720,         1.0 / 40320,
+      -1.0 / 3628800, 1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
+  constexpr double whole = 0x1.8p52;  // adding this rounds to a whole number
+  using namespace elementary_tables;
+  const double quarters = (x * (2 / pi) + whole) - whole;
+  const double rest = std::fma(-quarters, half_pi_last,
+                               std::fma(-quarters, half_pi_rest, std::fma(-quarters, half_pi, x)));
+  const double square = rest * rest;
+  const double s = std::fma(rest * square, polynomial(of_sine, square), rest);
+  const double c = std::fma(square, polynomial(of_cosine, square), 1.0);
+  switch (static_cast<std::int64_t>(quarters) & 3) {
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
+  }
+}
+
+/// Returns the range of sine or cosine near a centre, from its value and its slope there. No second
+/// derivative is above 1.
 Interval series(double value, double slope, const Interval& x, double center) {
   constexpr double roundings = 0x1p-49;
   constexpr double more_than_rounding = 1 + 0x1p-40;
@@ -37,7 +80,7 @@ Interval series(double value, double slope, const Interval& x, double center) {
 double power_of_size(double x, double exponent) {
   // Each product is off by half a unit.
   constexpr double most_products = 8;
-  if (exponent > most_products) return std::pow(x, exponent);
+  if (exponent > most_products) return elementary::pow(x, exponent);
   double result = x;
   for (double i = 1; i < exponent; ++i) result *= x;
   return result;
@@ -60,22 +103,22 @@ Interval square_root(const Interval& a) {
 }
 
 Interval exponential(const Interval& a) {
-  const Interval result = around(std::exp(a.lo), std::exp(a.hi));
+  const Interval result = around(elementary::exp(a.lo), elementary::exp(a.hi));
   return {std::max(0.0, result.lo), result.hi};
 }
 
 Interval logarithm(const Interval& a) {
-  return around(std::log(a.lo), std::log(a.hi));
+  return around(elementary::log(a.lo), elementary::log(a.hi));
 }
 
 Interval sine(const Interval& a) {
   if (!(a.width() < 2 * pi)) return {-1, 1};
-  return range_of_wave(a, std::sin(a.lo), std::sin(a.hi), pi / 2);
+  return range_of_wave(a, quick_wave(a.lo).sine, quick_wave(a.hi).sine, pi / 2);
 }
 
 Interval cosine(const Interval& a) {
   if (!(a.width() < 2 * pi)) return {-1, 1};
-  return range_of_wave(a, std::cos(a.lo), std::cos(a.hi), 0);
+  return range_of_wave(a, quick_wave(a.lo).cosine, quick_wave(a.hi).cosine, 0);
 }
 
 Wave wave(const Interval& middle, const Interval& all) {
@@ -85,8 +128,7 @@ Wave wave(const Interval& middle, const Interval& all) {
   const Interval& about = is_narrow ? all : middle;
   const double center = about.lo + 0.5 * about.width();
   if (!(about.width() <= widest)) return {{-1, 1}, {-1, 1}, sine(all), cosine(all)};
-  const double s = std::sin(center);
-  const double c = std::cos(center);
+  const auto [s, c] = quick_wave(center);
   Wave result = {series(s, c, middle, center), series(c, -s, middle, center), {}, {}};
   if (is_narrow) {
     result.sine = series(s, c, all, center);
@@ -100,19 +142,19 @@ Wave wave(const Interval& middle, const Interval& all) {
 
 Interval tangent(const Interval& a) {
   if (!(a.width() < pi) || may_contain_turn(a, pi / 2, pi)) return Interval::everything();
-  return around(std::tan(a.lo), std::tan(a.hi));
+  return around(elementary::tan(a.lo), elementary::tan(a.hi));
 }
 
 Interval arc_sine(const Interval& a) {
-  return around(std::asin(a.lo), std::asin(a.hi));
+  return around(elementary::asin(a.lo), elementary::asin(a.hi));
 }
 
 Interval arc_cosine(const Interval& a) {
-  return around(std::acos(a.hi), std::acos(a.lo));
+  return around(elementary::acos(a.hi), elementary::acos(a.lo));
 }
 
 Interval arc_tangent(const Interval& a) {
-  return around(std::atan(a.lo), std::atan(a.hi));
+  return around(elementary::atan(a.lo), elementary::atan(a.hi));
 }
 
 Interval whole_power(const Interval& a, double exponent) {
@@ -126,7 +168,7 @@ Interval whole_power(const Interval& a, double exponent) {
 }
 
 Interval power(const Interval& a, double exponent) {
-  const Interval result = around(std::pow(a.lo, exponent), std::pow(a.hi, exponent));
+  const Interval result = around(elementary::pow(a.lo, exponent), elementary::pow(a.hi, exponent));
   return {std::max(0.0, result.lo), result.hi};
 }
 

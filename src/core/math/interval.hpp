@@ -1,8 +1,8 @@
 // Arithmetic with intervals is rounded outwards: a result surely holds all that its operands allow.
 //
 // A bound is computed in round-to-nearest and then moved outwards by more than its rounding. For
-// the functions of the C library that is four units in the last place, of which they take one at
-// most (glibc's manual, "Known Maximum Errors in Math Functions").
+// the elementary functions (crt/elementary.hpp) that is four units in the last place, of which they
+// take about a half.
 //
 // Source: Rump, Fast and parallel interval arithmetic, 1999; Moore, Kearfott, Cloud, Introduction
 // to interval analysis, 2009. Tests: tests/math/interval_test.cpp
@@ -49,7 +49,7 @@ inline double sum_down(double x) {
 inline double sum_up(double x) {
   return -sum_down(-x);
 }
-/// Returns the numbers that a function of the C library may have rounded to some from lo to hi.
+/// Returns the numbers that an elementary function may have rounded to some from lo to hi.
 inline Interval around(double lo, double hi) {
   constexpr double last_places = 0x1p-50;
   constexpr double smallest = std::numeric_limits<double>::min();
@@ -114,7 +114,7 @@ inline Interval operator/(const Interval& a, const Interval& b) {
                       b.lo == 0 ? unbounded : rounded_up(1 / b.lo)};
 }
 
-// These are the functions of the C library. What is outside of where a function has a value must
+// These are the elementary functions. What is outside of where a function has a value must
 // have been cut off.
 
 Interval square_root(const Interval& a);

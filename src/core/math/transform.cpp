@@ -1,6 +1,7 @@
 #include "crt/transform.hpp"
 
 #include <fmt/core.h>
+#include <crt/elementary.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -45,8 +46,8 @@ SineCosine sine_cosine(double degrees) {
   constexpr double radians_per_degree = std::numbers::pi / 180;
   int quarters = 0;
   const double radians = std::remquo(degrees, quarter_turn, &quarters) * radians_per_degree;
-  const double sine = std::sin(radians);
-  const double cosine = std::cos(radians);
+  const double sine = elementary::sin(radians);
+  const double cosine = elementary::cos(radians);
   switch (quarters & 3) {
     case 0:
       return {sine, cosine};

@@ -1,6 +1,7 @@
 #include "core/sampling/pixel_filter.hpp"
 
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <numbers>
 
 namespace crt::core {
@@ -16,7 +17,7 @@ double blackman_harris_share(double x) {
   double integral = constant * (x + 0.5);
   for (std::size_t i = 0; i < waves.size(); ++i) {
     const double angular_frequency = 2 * std::numbers::pi * static_cast<double>(i + 1);
-    integral += waves[i] * std::sin(angular_frequency * x) / angular_frequency;
+    integral += waves[i] * elementary::sin(angular_frequency * x) / angular_frequency;
   }
   return integral / constant;
 }

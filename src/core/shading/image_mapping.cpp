@@ -1,6 +1,7 @@
 #include "core/shading/image_mapping.hpp"
 
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -34,7 +35,7 @@ PictureCoordinates planar(const Vec3& place, const Vec3& direction) {
 /// picture faces -z, and from outside its right is on the right.
 PictureCoordinates cylindrical(const Vec3& place, const Vec3& axis) {
   const Frame frame = frame_of(axis);
-  const double angle = std::atan2(-glm::dot(place, frame.right), -glm::dot(place, frame.up));
+  const double angle = elementary::atan2(-glm::dot(place, frame.right), -glm::dot(place, frame.up));
   return {0.5 + angle / (2 * std::numbers::pi), glm::dot(place, axis)};
 }
 

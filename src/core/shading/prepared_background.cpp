@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <numbers>
 
 #include "crt/settings.hpp"
@@ -46,14 +47,14 @@ Color PreparedBackground::panorama(const PanoramaBackground& panorama,
                                    const Vec3& direction) const {
   const double width = texture_->width();
   const double height = texture_->height();
-  const double across = std::atan2(direction.x, direction.z) + panorama.angle;
-  const double level = std::hypot(direction.x, direction.z);
+  const double across = elementary::atan2(direction.x, direction.z) + panorama.angle;
+  const double level = elementary::hypot(direction.x, direction.z);
   const double x = (0.5 + across / full_turn) * width;
 
   double y = 0.5 * height;
   switch (panorama.projection) {
     case PanoramaProjection::spherical:
-      y -= std::atan2(direction.y, level) / std::numbers::pi * height;
+      y -= elementary::atan2(direction.y, level) / std::numbers::pi * height;
       break;
     case PanoramaProjection::cylindrical:
       // The cylinder has radius 1, so that a texel is as high as it is wide.

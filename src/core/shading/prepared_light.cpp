@@ -1,6 +1,7 @@
 #include "core/shading/prepared_light.hpp"
 
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <limits>
 
 #include "core/math/direction_and_length.hpp"
@@ -42,8 +43,8 @@ PreparedLight::PreparedLight(const SpotLight& light)
   // These are 1 - cos a = 2 sin^2(a / 2), and cos i - cos o = 2 sin((o + i) / 2) sin((o - i) / 2).
   const double rim = light.angle / 2;
   const double full = rim - light.penumbra;
-  rim_versine_ = 2 * std::sin(rim / 2) * std::sin(rim / 2);
-  fading_versine_ = 2 * std::sin((rim + full) / 2) * std::sin(light.penumbra / 2);
+  rim_versine_ = 2 * elementary::sin(rim / 2) * elementary::sin(rim / 2);
+  fading_versine_ = 2 * elementary::sin((rim + full) / 2) * elementary::sin(light.penumbra / 2);
 }
 
 PreparedLight::PreparedLight(const CylinderLight& light)

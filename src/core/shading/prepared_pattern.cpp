@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <glm/common.hpp>
 #include <numbers>
 #include <type_traits>
@@ -30,7 +31,7 @@ auto is_odd(const Real& whole_number) {
 
 /// Goes from 0 to 1 and back, smoothly, once a period.
 double wave(double coordinate) {
-  return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * period_share(coordinate));
+  return 0.5 - 0.5 * elementary::cos(2 * std::numbers::pi * period_share(coordinate));
 }
 
 /// Returns a point a little under the surface. A surface that lies exactly on an edge of a pattern

@@ -1,5 +1,7 @@
 #include "core/geometry/disc/disc.hpp"
 
+#include <crt/elementary.hpp>
+
 #include "core/geometry/checks.hpp"
 #include "core/math/vector.hpp"
 
@@ -11,7 +13,8 @@ DiscShape::DiscShape(const Disc& disc)
 Vec3 disc_extents(const Vec3& axis, double radius) {
   // This is sqrt(1 - a_i^2) by the two other components, so nothing cancels.
   const Vec3 a = unit_vector(axis);
-  return radius * Vec3(std::hypot(a.y, a.z), std::hypot(a.x, a.z), std::hypot(a.x, a.y));
+  return radius * Vec3(elementary::hypot(a.y, a.z), elementary::hypot(a.x, a.z),
+                       elementary::hypot(a.x, a.y));
 }
 
 Bounds DiscShape::bounds() const {

@@ -1,5 +1,7 @@
 #include "core/geometry/frustum/frustum.hpp"
 
+#include <crt/elementary.hpp>
+
 #include "core/geometry/disc/disc.hpp"
 #include "core/geometry/frustum/start.hpp"
 
@@ -22,7 +24,7 @@ FrustumShape::FrustumShape(const Vec3& from, const Vec3& to, double from_radius,
   narrow_radius_ = narrow / unit_;
   if (wide > narrow) {
     const double growth = (wide - narrow) / unit_;
-    const double slant = std::hypot(growth, height_);
+    const double slant = elementary::hypot(growth, height_);
     cosine_ = height_ / slant;
     sine_ = growth / slant;
   }

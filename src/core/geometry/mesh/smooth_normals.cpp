@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -15,7 +16,7 @@ namespace crt::core {
 namespace {
 
 double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+  return elementary::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 Vec3 normal_of(const MeshTriangles& mesh, std::uint32_t facet) {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <crt/elementary.hpp>
 #include <limits>
 #include <numbers>
 
@@ -23,8 +24,8 @@ Direction direction_at(double angle) {
   double rest = std::remquo(angle, half_turn / 2, &quarters);
   constexpr double rounding = 0x1p-50;
   if (std::abs(rest) <= rounding) rest = 0;
-  const double sine = std::sin(rest);
-  const double cosine = std::cos(rest);
+  const double sine = elementary::sin(rest);
+  const double cosine = elementary::cos(rest);
   switch (quarters & 3) {
     case 1:
       return {-sine, cosine};

@@ -1,0 +1,33 @@
+// Compares the hashes of example pictures and of queries' answers with those in hashes.txt, on
+// whatever machine this runs:  check_hashes [STEP]   takes every STEP-th example, all by default.
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+#include "images/hashes.hpp"
+
+using namespace crt::tests;
+
+int main(int argc, char** argv) try {
+  const int step = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
+  const Hashes known = read_hashes();
+  const std::vector<ExamplePicture> pictures = example_pictures();
+  std::size_t compared = 0;
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < pictures.size(); i += static_cast<std::size_t>(step)) {
+    for (const auto& [name, hash] : hashes_of(pictures[i])) {
+      ++compared;
+      const auto old = known.find(name);
+      if (old != known.end() && old->second == hash) continue;
+      ++different;
+      std::cout << name << (old == known.end() ? ": is not in hashes.txt\n" : ": differs\n")
+                << std::flush;
+    }
+  }
+  std::cout << compared << " hashes compared, " << different << " differ\n";
+  return different == 0 && compared > 0 ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << "check_hashes: " << error.what() << '\n';
+  return 2;
+}
