@@ -82,7 +82,7 @@ std::string text(const Json& value, const char* name) {
 std::string inner_path(const std::string& name) {
   const fs::path path(name);
   const bool leads_out = name.empty() || name.find('\0') != std::string::npos ||
-                         path.is_absolute() || path.lexically_normal() != path ||
+                         path.is_absolute() || path.lexically_normal().string() != name ||
                          std::find(path.begin(), path.end(), "..") != path.end();
   if (leads_out) fail(fmt::format("'{}' is not the path of a file in the job", name));
   return name;
