@@ -44,8 +44,8 @@ struct FarmOptions {
   /// makes the tasks' costs equal.
   int tile_width = 0;
   int tile_height = 0;
-  /// Of these, `seed`, `passes`, `max_ray_steps` and `aovs` are for the tasks, `threads` and
-  /// `progress` for planning. The others must be as they are.
+  /// The tasks get `seed`, `passes`, `max_ray_steps` and `aovs`. Planning uses `threads` and
+  /// `progress`. The others must be as they are.
   RenderOptions render{};
   std::uint64_t max_primitives = 0;  ///< see PrepareOptions
 };

@@ -13,7 +13,7 @@ namespace crt::cli {
 namespace {
 
 constexpr std::string_view farm_footer =
-    R"(Splits pictures and films into tasks for many machines that see one folder, or get copies of it.
+    R"(Splits pictures and films into tasks for many machines that see one folder, or get copies.
 The merged pictures are those of `crt render --reproducible`, to the byte.
 
   crt farm plan scene.crt --frames 1-240 -o job    makes a job: the script, its files, the tasks

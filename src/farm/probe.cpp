@@ -16,7 +16,7 @@ namespace {
 constexpr double share_of_work = 0.004;
 constexpr double least_pixels = 4096;
 constexpr double most_pixels = 65536;
-constexpr int cell_side = 4;
+constexpr int cell_side = 8;
 /// No part of a picture counts as cheaper than this share of the mean: rays have to be made.
 constexpr double least_of_mean = 0.02;
 

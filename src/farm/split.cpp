@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <queue>
+#include <random>
 
 namespace crt::farm {
 
@@ -11,8 +12,8 @@ namespace {
 
 // A task has pieces in several places of a picture. So what a map does not show of one is made up
 // by the others. Small pieces cost more, as they have a margin.
-constexpr int most_pieces_of_task = 8;
-constexpr std::int64_t least_pixels_of_piece = 1024;
+constexpr int most_pieces_of_task = 16;
+constexpr std::int64_t least_pixels_of_piece = 256;
 
 /// A frame is not cut where that would make a piece of less than this share of a task.
 constexpr double least_share = 0.05;
@@ -92,13 +93,20 @@ void add_frame(const CostMap& map, int frame, std::span<const TaskShare> takers,
       pixels / least_pixels_of_piece / static_cast<std::int64_t>(takers.size());
   const auto rounds =
       static_cast<std::size_t>(std::clamp<std::int64_t>(fitting, 1, most_pieces_of_task));
-  std::vector<double> shares;
+  // In every round the tasks have another order. Else a task would have the same corner of each
+  // area, whose pieces may all be dearer than the map says.
+  std::minstd_rand random;
+  std::vector<TaskShare> order;
   for (std::size_t round = 0; round < rounds; ++round) {
-    for (const TaskShare& taker : takers) shares.push_back(taker.share);
+    order.insert(order.end(), takers.begin(), takers.end());
+    for (std::size_t i = takers.size(); i > 1; --i)
+      std::swap(order[order.size() - i], order[order.size() - 1 - random() % i]);
   }
+  std::vector<double> shares;
+  for (const TaskShare& taker : order) shares.push_back(taker.share);
   std::vector<Region> pieces;
   cut(map, all, shares, pieces);
-  for (std::size_t i = 0; i < pieces.size(); ++i) give(takers[i % takers.size()].task, pieces[i]);
+  for (std::size_t i = 0; i < pieces.size(); ++i) give(order[i].task, pieces[i]);
 }
 
 double seconds_of(const CostMap& map) {

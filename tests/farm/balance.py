@@ -5,7 +5,8 @@ usage: balance.py CRT FOLDER TASKS SCENE... [-- OPTION...]
 
 Plans a job of each scene in FOLDER, works on all of its tasks on one thread, one after the other,
 and prints the longest task by the mean. What a process takes is the seconds that it computes, not
-those of the clock, so that other work on the machine does not matter. Options go to `crt farm plan`.
+those of the clock, and the least of three runs, so that other work on the machine matters little.
+Options go to `crt farm plan`.
 For 1000 workers it then repeats the measured tasks of each scene until a job has 10 core-hours in
 about a minute's tasks, and prints how well the workers are used when each takes the next task.
 """
@@ -34,14 +35,20 @@ def efficiency(tasks, workers):
     return sum(tasks) / (workers * max(free))
 
 
+def work(crt, job, task):
+    part = os.path.join(job, "parts", f"{task:06}.part")
+    if os.path.exists(part):
+        os.remove(part)
+    return seconds_of([crt, "farm", "work", job, "--task", str(task), "--threads", "1", "-q"])
+
+
 def measure(crt, folder, tasks, scene, options):
     name = os.path.splitext(os.path.basename(scene))[0]
     job = os.path.join(folder, name)
     shutil.rmtree(job, ignore_errors=True)
     plan = seconds_of(
         [crt, "farm", "plan", scene, "-o", job, "--tasks", str(tasks), "-q", *options])
-    times = [seconds_of([crt, "farm", "work", job, "--task", str(i), "--threads", "1", "-q"])
-             for i in range(tasks)]
+    times = [min(work(crt, job, i) for _ in range(3)) for i in range(tasks)]
     merge = seconds_of([crt, "farm", "merge", job, "-q"])
     with open(os.path.join(job, "manifest.json"), encoding="utf-8") as file:
         estimated = sum(task["seconds"] for task in json.load(file)["tasks"])

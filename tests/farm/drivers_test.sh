@@ -13,7 +13,8 @@ Settings {
   camera -> Camera { position -> vec3(0, 1, -5) pointing -> vec3(0, 0, 0) }
 }
 Scene {
-  Sphere { center -> vec3(t / 8 - 1, 0, 0) radius -> 1 material -> Material { reflectivity -> 0.5 } }
+  Sphere { center -> vec3(t / 8 - 1, 0, 0) radius -> 1
+           material -> Material { reflectivity -> 0.5 } }
   Sphere { center -> vec3(1, 0, 0) radius -> 1 }
 }
 END

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Has 240 small frames and one large poster of 64 tiles rendered by a Slurm of its own. Workers are
-# killed, a node goes down and comes back, tasks run twice, and a part is cut short. The merged files
-# must be those of `crt render` on one thread. The argument is the command crt.
+# Has 240 small frames and one large poster of 64 tiles rendered by a Slurm of its own. Workers
+# are killed, a node goes down and comes back, tasks run twice, and a part is cut short. The merged
+# files must be those of `crt render` on one thread. The argument is the command crt.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 # shellcheck source=tests/farm/slurm.sh
