@@ -7,6 +7,9 @@ namespace crt::cli {
 /// Renders the pictures of scripts, or those of an animation.
 ExitCode run_render(const RenderRequest& request);
 
+/// Plans, works on, merges, shows or submits a job for many machines.
+ExitCode run_farm(const FarmRequest& request);
+
 /// Renders a script's picture again whenever something changes, until it is interrupted.
 ExitCode run_watch(const WatchRequest& request);
 

@@ -15,6 +15,7 @@ using namespace crt::cli;
 
 struct Run {
   ExitCode operator()(const RenderRequest& request) const { return run_render(request); }
+  ExitCode operator()(const FarmRequest& request) const { return run_farm(request); }
   ExitCode operator()(const CheckRequest& request) const { return run_check(request); }
   ExitCode operator()(const NewRequest& request) const { return run_new(request); }
   ExitCode operator()(const TradeRequest& request) const { return run_trade(request); }

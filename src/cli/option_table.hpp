@@ -34,6 +34,7 @@ struct CommandTable {
 // The tables' rows fill in the requests, which must outlive them.
 
 CommandTable render_table(RenderRequest& request);
+CommandTable farm_table(FarmRequest& request);
 CommandTable watch_table(WatchRequest& request);
 CommandTable trade_table(TradeRequest& request);
 CommandTable check_table(CheckRequest& request);

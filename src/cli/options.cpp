@@ -35,6 +35,8 @@ constexpr std::string_view main_footer = R"(Examples:
   crt render film.crt --frames 0-99 -o film.gif
                                              one film of them
   crt watch scene.crt                        renders again at each change of the script
+  crt farm plan film.crt --frames 0-99 -o job
+                                             splits a film into tasks for many machines
   crt trade scene.crt --budget 10            shows which settings give most for ten seconds
   crt check scene.crt                        reports what is wrong with a script, renders nothing
   crt format scene.crt                       lays the script out
@@ -221,6 +223,8 @@ Request parse_command_line(int argc, const char* const* argv) {
 
   RenderRequest render_request;
   add_command(app, render_table(render_request));
+  FarmRequest farm_request;
+  const CLI::App& farm = add_command(app, farm_table(farm_request));
   WatchRequest watch_request;
   const CLI::App& watch = add_command(app, watch_table(watch_request));
   TradeRequest trade_request;
@@ -260,6 +264,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   if (format.parsed()) return format_request;
   if (lsp.parsed()) return LspRequest{};
   if (trade.parsed()) return trade_request;
+  if (farm.parsed()) return farm_request;
   if (watch.parsed()) return watch_request;
   return render_request;
 }

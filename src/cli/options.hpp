@@ -7,6 +7,7 @@
 #include <crt/script.hpp>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -65,6 +66,32 @@ struct WatchRequest : PictureRequest {
   std::filesystem::path scene;
 };
 
+/// A FarmRequest holds what all verbs of the command take. `given` has the options by name.
+struct FarmRequest : PictureRequest {
+  std::string verb;
+  std::filesystem::path target;  ///< the script to plan, else the job
+  std::set<std::string> given;
+  // to plan
+  std::optional<FrameRange> frames;
+  int tasks = 0;
+  double least_seconds = 60;
+  int tile_width = 0;
+  int tile_height = 0;
+  // to work and merge
+  std::optional<int> task;
+  bool follow = false;
+  // to show
+  std::filesystem::path sheet;
+  // to submit
+  bool local = false;
+  bool slurm = false;
+  bool parallel = false;
+  bool no_wait = false;
+  int processes = 0;
+  std::string hosts;
+  std::vector<std::string> slurm_options;
+};
+
 struct CheckRequest : CommonRequest {
   std::vector<std::filesystem::path> scenes;
 };
@@ -112,8 +139,9 @@ struct ManRequest {
 
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
-using Request = std::variant<RenderRequest, WatchRequest, CheckRequest, TradeRequest, NewRequest,
-                             FormatRequest, LspRequest, CompletionsRequest, ManRequest, ExitCode>;
+using Request =
+    std::variant<RenderRequest, FarmRequest, WatchRequest, CheckRequest, TradeRequest, NewRequest,
+                 FormatRequest, LspRequest, CompletionsRequest, ManRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

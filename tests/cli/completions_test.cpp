@@ -42,7 +42,8 @@ std::string completed(const TemporaryFolder& folder, const std::string& words) {
   return folder.read("offered");
 }
 
-const char* const commands[] = {"render", "watch", "trade", "check", "completions", "man", "help"};
+const char* const commands[] = {"render", "farm",        "watch", "trade",
+                                "check",  "completions", "man",   "help"};
 
 }  // namespace
 

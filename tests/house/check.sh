@@ -53,7 +53,10 @@ check_layers() {
     [[ -n $later ]] || continue
     lines_with "^#include [<\"]core/($later)/" "src/core/${layers[position]}/*"
   done
-  lines_with '^#include [<"](lang|cli|capi|format|lsp)/' 'src/core/*'
+  lines_with '^#include [<"](lang|farm|cli|capi|format|lsp)/' 'src/core/*'
+  # Jobs use the renderer and run scripts as any program does.
+  lines_with '^#include [<"](lang|cli|capi|format|lsp)/' 'src/farm/*'
+  lines_with '^#include [<"]farm/' 'src/lang/*' 'src/format/*' 'src/lsp/*' 'src/capi/*' 'src/cli/*'
   # Anybody may see what is about words, which sees nothing.
   lines_with '^#include [<"](crt|core|lang|format|lsp|cli|capi)/' 'src/text/*'
   # The front end is seen by what lays scripts out and by what serves editors, and these by the
@@ -84,11 +87,12 @@ check_public_only() {
   lines_with '^#include <(fmt|tbb|embree|OpenImageIO|CLI)' 'include/*'
 }
 
-# crt.hpp holds every public header but script.hpp, which belongs to the library crt::lang.
+# crt.hpp holds every public header but script.hpp and farm.hpp, which belong to the libraries
+# crt::lang and crt::farm.
 check_umbrella() {
   local header
   tracked 'include/crt/*.hpp' | while IFS= read -r header; do
-    case ${header##*/} in crt.hpp | script.hpp) continue ;; esac
+    case ${header##*/} in crt.hpp | script.hpp | farm.hpp) continue ;; esac
     grep -qF "#include <crt/${header##*/}>" include/crt/crt.hpp || echo "$header is not in crt.hpp"
   done
 }
@@ -190,8 +194,8 @@ only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/im
 lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
 lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
-  without '^src/lsp/(server|requests|json_values)\.cpp:' |
-  complain "JSON outside the three sources of src/lsp that have to wait for it"
+  without '^src/(lsp/(server|requests|json_values)|farm/manifest)\.cpp:' |
+  complain "JSON outside src/farm/manifest.cpp and three sources of src/lsp"
 tracked '*.y' '*.re' | without '^src/lang/' | complain "Bison or re2c outside src/lang"
 check_public_only | complain "Only crt/*.hpp may be seen from here"
 check_umbrella | complain "A public header is missing from crt.hpp"
@@ -199,10 +203,11 @@ tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once'
   complain "No #pragma once"
 lines_with '#include <format>|std::views::|std::ranges::views' "${code[@]}" |
   complain "Not with the compilers that we support"
-lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
+lines_with '\bgetenv\b' \
+  'src/core/*' 'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
   complain "The library reads the environment"
 lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' \
-  'src/core/*' 'src/lang/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
+  'src/core/*' 'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
   complain "The library prints or ends the process: log to a callback, throw crt::Error"
 lines_with '\b(TODO|FIXME|XXX|HACK)\b' \
   "${code[@]}" "${users[@]}" 'examples/*' '*.cmake' '*CMakeLists.txt' |

@@ -7,7 +7,7 @@
 #include <span>
 #include <sstream>
 
-#include "support/sha256.hpp"
+#include "core/base/sha256.hpp"
 
 namespace crt::tests {
 
@@ -108,7 +108,7 @@ Scene small_scene(const ExamplePicture& picture) {
 }
 
 std::string pixel_hash(const Image& image) {
-  return sha256(std::as_bytes(image.pixels()));
+  return core::sha256(std::as_bytes(image.pixels()));
 }
 
 fs::path reference_path(const ExamplePicture& picture) {

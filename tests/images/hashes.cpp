@@ -10,7 +10,7 @@
 #include <random>
 #include <span>
 
-#include "support/sha256.hpp"
+#include "core/base/sha256.hpp"
 
 namespace crt::tests {
 
@@ -61,7 +61,7 @@ class Bytes {
     for (int shift = 0; shift < 64; shift += 8)
       bytes_.push_back(static_cast<std::byte>(word >> shift & 0xffu));
   }
-  std::string hash() const { return sha256(bytes_); }
+  std::string hash() const { return core::sha256(bytes_); }
 
  private:
   std::vector<std::byte> bytes_;

@@ -75,6 +75,8 @@ class StateReader {
   }
 
   bool at_end() const { return rest_.empty(); }
+  /// Returns the number of bytes that have not been read.
+  std::size_t bytes_left() const { return rest_.size(); }
   /// Throws the Error (io) for content that a state file cannot have.
   [[noreturn]] void fail() const;
 

@@ -17,8 +17,6 @@ void report_unseen(RenderStats& stats) {
   stats.unseen_share = std::min(1.0, rule_of_three / static_cast<double>(stats.samples_min));
 }
 
-/// Returns the brightest channel that a ray which hits nothing can see, or white if that is
-/// brighter.
 struct Brightness {
   static constexpr double white = 1;
 
@@ -69,10 +67,24 @@ void report_grid(const Settings& settings, bool lens, RenderStats& stats) {
   report_unseen(stats);
 }
 
+double brightest_of(const Background& background) {
+  return std::visit(Brightness{}, background);
+}
+
+double cutoff_mean(std::uint64_t units, double brightest, std::uint64_t pixels) {
+  return brightest * (CutoffSum::unit * static_cast<double>(units)) / static_cast<double>(pixels);
+}
+
+std::uint64_t cutoff_units(double mean, double brightest, std::uint64_t pixels) {
+  // The roundings are far smaller than a unit.
+  return static_cast<std::uint64_t>(
+      std::llround(mean * static_cast<double>(pixels) / brightest / CutoffSum::unit));
+}
+
 void report_cutoff(const CutoffSum& cutoff, const Background& background, RenderStats& stats) {
   if (cutoff.most == 0) return;
-  const double brightest = std::visit(Brightness{}, background);
-  stats.cutoff_mean = brightest * cutoff.total() / static_cast<double>(stats.pixels);
+  const double brightest = brightest_of(background);
+  stats.cutoff_mean = cutoff_mean(cutoff.units, brightest, stats.pixels);
   stats.cutoff_max = brightest * cutoff.most;
 }
 

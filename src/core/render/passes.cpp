@@ -203,9 +203,20 @@ void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, Workspace&
     }
   }
   const std::span<PixelPlace> chosen(pixels.data(), count);
+  const auto margin = std::partition(chosen.begin(), chosen.end(), [&](const PixelPlace& pixel) {
+    return is_in_region({pixel.x, pixel.y});
+  });
+  const auto in_region = static_cast<std::size_t>(margin - chosen.begin());
   std::optional<PixelsAside> aside;
   if (is_storable()) aside.emplace(chosen, count_ > 0, work);
-  trace_passes(frame_, chosen, {count_, step.until}, tracer, work.stats);
+  const SampleRange range{count_, step.until};
+  trace_passes(frame_, chosen.first(in_region), range, tracer, work.stats);
+  if (in_region < count) {
+    // The rays of the margin are not counted, so that the counts of regions add up to the whole's.
+    const RenderStats counted = work.stats;
+    trace_passes(frame_, chosen.subspan(in_region), range, tracer, work.stats);
+    work.stats = counted;
+  }
   const Change change(*this, work);
   if (aside) aside->put_back();
   tile.is_ahead = true;

@@ -2,12 +2,12 @@
 
 #include <string>
 
-#include "support/sha256.hpp"
+#include "core/base/sha256.hpp"
 
 namespace {
 
 std::string hash_of(const std::string& text) {
-  return crt::tests::sha256(std::as_bytes(std::span(text)));
+  return crt::core::sha256(std::as_bytes(std::span(text)));
 }
 
 }  // namespace

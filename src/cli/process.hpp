@@ -1,0 +1,30 @@
+// Other programs are run as a shell runs them, but without a shell.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace crt::cli {
+
+/// Starts a program, which is looked for in PATH, with standard input empty. Its output goes where
+/// this program's errors go, or to `output`, if that is a descriptor. Throws Error (io) if it
+/// cannot be started.
+pid_t start_program(const std::vector<std::string>& words, int output = -1);
+
+/// Waits for the end of a process, and says whether all went well.
+bool has_succeeded(pid_t process);
+
+/// An Answer is what a program wrote to standard output.
+struct Answer {
+  bool succeeded = false;
+  std::string text;
+};
+/// Runs a program to its end. Throws Error (io) if it cannot be started.
+Answer ask_program(const std::vector<std::string>& words);
+
+/// Returns the path of this program.
+std::string this_program();
+
+}  // namespace crt::cli

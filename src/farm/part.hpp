@@ -1,0 +1,27 @@
+// A part is the file that a task leaves: the pixels of its pieces in linear light, and what is to
+// be known of them.
+#pragma once
+
+#include "farm/manifest.hpp"
+
+namespace crt::farm {
+
+/// A RenderedPiece is a piece of a frame's picture.
+struct RenderedPiece {
+  Piece piece;
+  /// The image has the settings and those of the statistics that all machines agree on.
+  Image image;
+  std::uint64_t cutoff_units = 0;  ///< see core::CutoffSum
+  double brightest = 1;            ///< see core::brightest_of
+};
+
+/// Writes the part of a task, whole or not at all. Throws Error (io).
+void write_part(const Job& job, int task, const std::vector<RenderedPiece>& pieces);
+
+/// Reads the part of a task. Throws Error (io) where it is damaged, or is of another plan or task.
+std::vector<RenderedPiece> read_part(const Job& job, int task);
+
+/// Says whether the part's beginning is that of this plan and task. The rest is not read.
+bool has_part(const Job& job, int task);
+
+}  // namespace crt::farm
