@@ -12,8 +12,8 @@ exact='^(sqrt|fma|floor|ceil|trunc|round|rint|nearbyint|l?lround|l?lrint|frexp|l
 exact+='|logb|fmod|remainder|remquo|modf|copysign|nextafter|fmin|fmax|fabs|fdim)f?$'
 
 mathematics=$("$compiler" -print-file-name=libm.so.6)
-offered=$(nm -D --defined-only "$mathematics" | awk '$2 ~ /[TWi]/ { sub(/@.*/, "", $3); print $3 }' |
-  sort -u)
+offered=$(nm -D --defined-only "$mathematics" |
+  awk '$2 ~ /[TWi]/ { sub(/@.*/, "", $3); print $3 }' | sort -u)
 grep -qx sin <<<"$offered" || { echo "no sine in $mathematics"; exit 2; }
 
 status=0
@@ -22,7 +22,7 @@ for library in "$@"; do
   grep -q memcpy <<<"$imported" || { echo "nothing is imported by $library"; exit 2; }
   wrong=$(comm -12 <(echo "$offered") <(echo "$imported") | grep -vE "$exact" || true)
   [[ -z $wrong ]] || {
-    echo "$library takes from the C library (crt/elementary.hpp has its own):" $wrong
+    echo "$library takes from the C library (crt/elementary.hpp has its own): ${wrong//$'\n'/ }"
     status=1
   }
 done

@@ -1,5 +1,5 @@
-// These are the hashes in hashes.txt, which are the same on every machine: of every example picture
-// in both tiers, and of what queries answer in its scene.
+// These are the hashes in hashes.txt, which are to be the same on every machine: of every example
+// picture in both tiers, and of what queries answer in its scene.
 #pragma once
 
 #include <map>
