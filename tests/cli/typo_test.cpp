@@ -64,7 +64,7 @@ TEST_CASE("a misspelt command gets the one that was meant, or the list of all") 
   CHECK(contains(run_crt(folder, {"help", "wacth"}).err, "did you mean watch?"));
   const Outcome run = run_crt(folder, {"xylophone"});
   CHECK(run.exit_code == 2);
-  CHECK(contains(run.err, "there are render, watch, "));
+  CHECK(contains(run.err, "there are render, farm, watch, "));
 }
 
 TEST_CASE("a word too many is named") {
