@@ -31,7 +31,7 @@ def written_scenes(folder: pathlib.Path) -> list[pathlib.Path]:
             continue
         script = folder / f"{name.replace('/', '-')}.crt"
         with open(script, "w") as out:
-            crt_writer.Writer(make()).write(out)
+            crt_writer.Writer(make(), script).write(out)
         scripts.append(script)
     return scripts
 
