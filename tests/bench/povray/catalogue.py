@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from .model import (
-    Alternating, Box, Camera, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane,
-    PointLight, Scene, Sphere, Spheres, Torus, Union,
+    Alternating, Box, Camera, Checker, Cone, Cylinder, Difference, HeightField, Lenses, Material,
+    Mesh, Plane, PointLight, Scene, Sphere, Spheres, Torus, Union,
 )
 from .stream import Stream
 
@@ -177,6 +177,62 @@ def drilled_plate() -> Scene:
     return Scene("a box minus 11 cylinders and 4 cones", (plate, Plane(-4, FLOOR)), FRONT)
 
 
+def bumpy_ball(count: int) -> Mesh:
+    """Makes a ball with bumps of some `count` triangles: rings of them about y."""
+    rings = round(math.sqrt(count / 4))
+    around = 2 * rings
+    polar = np.pi * np.arange(1, rings + 1) / (rings + 1)
+    angle = 2 * np.pi * np.arange(around) / around
+    level = np.sin(polar)[:, None]
+    unit = np.stack([level * np.cos(angle), np.cos(polar)[:, None] + 0 * angle,
+                     level * np.sin(angle)], axis=-1).reshape(-1, 3)
+    unit = np.concatenate([[[0, 1, 0]], unit, [[0, -1, 0]]])
+    x, y, z = unit.T
+    bumps = 1 + 0.15 * np.sin(9 * x) * np.sin(8 * y) * np.cos(7 * z)
+    ring, place = np.divmod(np.arange((rings - 1) * around), around)
+    a, b = 1 + ring * around + place, 1 + ring * around + (place + 1) % around
+    first, last = 1 + np.arange(around), 1 + (rings - 1) * around + np.arange(around)
+    top = np.stack([0 * first, first, np.roll(first, -1)], axis=-1)
+    bottom = np.stack([last, np.full(around, len(unit) - 1), np.roll(last, -1)], axis=-1)
+    sides = [np.stack([a, a + around, b + around], axis=-1),
+             np.stack([a, b + around, b], axis=-1)]
+    return Mesh((3 * bumps[:, None] * unit).astype(np.float32),
+                np.concatenate([top, *sides, bottom]), (0.3, 0.9, 0.2), SHINY)
+
+
+def mesh(count: int) -> Scene:
+    return Scene(f"a mesh of {count} triangles", (bumpy_ball(count), Plane(-4, FLOOR)), STUDIO)
+
+
+def mesh_cut(count: int, holes: int) -> Scene:
+    """Makes a mesh from which spheres are cut all over its surface."""
+    stream = Stream(17)
+    centers = []
+    for _ in range(holes):
+        y, angle = stream.between(-1, 1), stream.between(0, 2 * math.pi)
+        distance = 3 * stream.between(0.8, 1.15)
+        level = distance * math.sqrt(1 - y * y)
+        centers.append((level * math.cos(angle), distance * y, level * math.sin(angle)))
+    cut = Difference(bumpy_ball(count), (Spheres(np.array(centers), 0.13, HOLE),))
+    return Scene(f"a mesh of {count} triangles minus {holes} spheres", (cut, Plane(-4, FLOOR)),
+                 STUDIO)
+
+
+def height_field(side: int) -> Scene:
+    """Makes mountains of waves of ever shorter lengths, each in another direction. At the sides,
+    which POV-Ray leaves open, they end at a height of 0."""
+    x, z = np.meshgrid(np.linspace(0, 1, side), np.linspace(0, 1, side))
+    heights = np.full((side, side), 0.1)
+    for octave in range(6):
+        angle = 2.4 * octave
+        wave = 5 * 2**octave * (x * math.cos(angle) + z * math.sin(angle))
+        heights += 0.4 / 2**octave * (0.5 + 0.5 * np.sin(wave + octave))
+    heights *= 16 * x * (1 - x) * z * (1 - z)
+    field = HeightField(np.round(65535 * np.clip(heights, 0, 1)).astype(np.uint16), (-5, -2, -5),
+                        (5, 1.5, 5), SHINY)
+    return Scene(f"a height field of {side} x {side}", (field, Plane(-4, FLOOR)), STUDIO)
+
+
 def powers(first: int, last: int) -> list[tuple[int, str]]:
     return [(10**k, f"1e{k}") for k in range(first, last + 1)]
 
@@ -198,8 +254,14 @@ SCENES = {
     "nested-500": lambda: nested(500),
     **{f"tubes-{name}": (lambda n=n: tubes(n)) for n, name in powers(1, 3)},
     "drilled-plate": drilled_plate,
+    "mesh-1e4": lambda: mesh(10**4),
+    "mesh-1e6": lambda: mesh(10**6),
+    "mesh-cut-1e6": lambda: mesh_cut(10**6, 1000),
+    "height-field-512": lambda: height_field(512),
+    "height-field-4096": lambda: height_field(4096),
 }
 QUICK = ("spheres-1e2", "spheres-1e4", "plate-1e2", "plate-1e3", "tunnel-1e1", "lenses-1e4",
-         "mirror-room", "tori-300", "glass", "depth-of-field", "antialiased", "nested-50")
+         "mirror-room", "tori-300", "glass", "depth-of-field", "antialiased", "nested-50",
+         "mesh-1e4", "height-field-512")
 # POV-Ray renders these with its other tree as well.
 BSP = ("spheres-1e4", "spheres-1e6", "lenses-1e4", "plate-1e3")

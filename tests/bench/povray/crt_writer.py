@@ -1,13 +1,15 @@
 """Writes scenes in CRT's language."""
 
 import math
+import pathlib
 from typing import TextIO
 
 import numpy as np
 
+from . import data_files
 from .model import (
-    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere,
-    Spheres, Torus, Union,
+    Alternating, Box, Checker, Cone, Cylinder, Difference, HeightField, Lenses, Material, Mesh,
+    Plane, Scene, Sphere, Spheres, Torus, Union,
 )
 
 
@@ -29,10 +31,12 @@ def rows(centers: np.ndarray, call: str) -> str:
 
 
 class Writer:
-    """Gives names to materials and to bodies that an expression needs. All go before the Scene."""
+    """Gives names to materials and to bodies that an expression needs. All go before the Scene.
+    Meshes and heights go into files beside the script."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, script: pathlib.Path) -> None:
         self.scene = scene
+        self.script = script
         self.definitions: list[str] = []
         self.materials: dict[Material, str] = {}
         self.names = 0
@@ -150,6 +154,16 @@ class Writer:
                     f" thickness -> {number(thing.thickness)} material ->"
                     f" {self.material(thing.material)} }}"
                     f" <rotate {vector(thing.turn)}, translate {vector(thing.center)}>")
+        if isinstance(thing, Mesh):
+            path = self.script.with_name(f"{self.script.stem}-{self.name('mesh')}.ply")
+            data_files.write_ply(path, thing)
+            return f'Mesh {{ file -> "{path.name}" material -> {self.material(thing.material)} }}'
+        if isinstance(thing, HeightField):
+            path = self.script.with_name(f"{self.script.stem}-{self.name('field')}.pgm")
+            data_files.write_pgm(path, thing)
+            return (f'HeightField {{ image -> "{path.name}" cornerA -> {vector(thing.low)}'
+                    f" cornerB -> {vector(thing.high)} material ->"
+                    f" {self.material(thing.material)} }}")
         if isinstance(thing, Union):
             return " + ".join(
                 f"({self.value(part)})" if isinstance(part, Difference) else self.value(part)

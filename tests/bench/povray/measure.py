@@ -43,9 +43,9 @@ def write_scripts(scene: Scene, name: str, plan: Plan) -> tuple[Crt, PovRay]:
     plan.folder.mkdir(parents=True, exist_ok=True)
     crt_script, pov_script = (plan.folder / f"{name}.{ending}" for ending in ("crt", "pov"))
     with open(crt_script, "w") as out:
-        crt_writer.Writer(scene).write(out)
+        crt_writer.Writer(scene, crt_script).write(out)
     with open(pov_script, "w") as out:
-        pov_writer.Writer(scene, plan.size.width / plan.size.height).write(out)
+        pov_writer.Writer(scene, plan.size.width / plan.size.height, pov_script).write(out)
     return Crt(plan.crt, crt_script), PovRay(pov_script, scene.grid, plan.tree)
 
 

@@ -108,6 +108,26 @@ class Lenses:
     material: Material = GREY
 
 
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A Mesh is closed, with corners in single precision and triangles of their numbers."""
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    inside: Vector  # a direction that no facet is parallel to, for POV-Ray
+    material: Material = GREY
+
+
+@dataclass(frozen=True, eq=False)
+class HeightField:
+    """A HeightField has 16-bit heights, in rows along x from the lower z on."""
+
+    heights: np.ndarray
+    low: Vector
+    high: Vector
+    material: Material = GREY
+
+
 @dataclass(frozen=True)
 class Union:
     parts: tuple

@@ -1,11 +1,13 @@
 """Writes scenes in POV-Ray's language, such that its formulas give what CRT's do."""
 
 import math
+import pathlib
 from typing import TextIO
 
+from . import data_files
 from .model import (
-    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere,
-    Spheres, Torus, Union,
+    Alternating, Box, Checker, Cone, Cylinder, Difference, HeightField, Lenses, Material, Mesh,
+    Plane, Scene, Sphere, Spheres, Torus, Union,
 )
 
 # The ratio of POV-Ray's `aperture` to the radius of its lens was found by the size of a spot out of
@@ -28,9 +30,11 @@ def rows(centers, before: str, after: str) -> str:
 
 
 class Writer:
-    def __init__(self, scene: Scene, aspect: float) -> None:
+    def __init__(self, scene: Scene, aspect: float, script: pathlib.Path) -> None:
         self.scene = scene
         self.aspect = aspect
+        self.script = script
+        self.fields = 0
         self.declarations: list[str] = []
         self.materials: dict[Material, str] = {}
 
@@ -163,6 +167,15 @@ background {{ rgb {vector(scene.background)} }}
             return (f"torus {{ {number(thing.radius)}, {number(thing.thickness)}"
                     f" rotate {vector(thing.turn)}"
                     f" translate {vector(thing.center)}{self.look(thing.material)} }}")
+        if isinstance(thing, Mesh):
+            return self.mesh(thing)
+        if isinstance(thing, HeightField):
+            self.fields += 1
+            path = self.script.with_name(f"{self.script.stem}-heights{self.fields}.pgm")
+            data_files.write_pgm(path, thing)
+            size = [high - low for low, high in zip(thing.low, thing.high)]
+            return (f'height_field {{ pgm "{path.name}" scale {vector(size)}'
+                    f" translate {vector(thing.low)}{self.look(thing.material)} }}")
         if isinstance(thing, Union):
             return self.csg("union", thing.parts)
         if isinstance(thing, Difference):
@@ -173,6 +186,13 @@ background {{ rgb {vector(scene.background)} }}
                 text = f"{('union', 'difference')[level % 2]} {{ {text}\n{self.text(part)} }}"
             return text
         raise TypeError(f"no {type(thing).__name__} in POV-Ray's language")
+
+    def mesh(self, mesh: Mesh) -> str:
+        corners = ",\n".join(vector(place) for place in mesh.positions.tolist())
+        faces = ",\n".join(f"<{a}, {b}, {c}>" for a, b, c in mesh.triangles.tolist())
+        return (f"mesh2 {{ vertex_vectors {{ {len(mesh.positions)},\n{corners} }}\n"
+                f"face_indices {{ {len(mesh.triangles)},\n{faces} }}\n"
+                f"inside_vector {vector(mesh.inside)}{self.look(mesh.material)} }}")
 
     def csg(self, operation: str, parts) -> str:
         return f"{operation} {{\n" + "\n".join(map(self.text, parts)) + "\n}"

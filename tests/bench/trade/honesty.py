@@ -72,7 +72,7 @@ def measure(name: str, program: pathlib.Path, folder: pathlib.Path, quick: bool)
     for part in chosen.parts[:1 if quick else None]:
         script = folder / f"{part.scene}.crt"
         with open(script, "w") as out:
-            crt_writer.Writer(trade_scenes.SCENES[part.scene]()).write(out)
+            crt_writer.Writer(trade_scenes.SCENES[part.scene](), script).write(out)
         height = trade_scenes.height_of(part.scene)
         arguments += [
             script, height * 4 // 3, height, errors.GAMMA, *part.entities, part.left, part.top,

@@ -65,9 +65,9 @@ def contest(name: str, plan: Plan) -> Contest:
     plan.folder.mkdir(parents=True, exist_ok=True)
     crt_script, pov_script = (plan.folder / f"{name}.{ending}" for ending in ("crt", "pov"))
     with open(crt_script, "w") as out:
-        crt_writer.Writer(scene).write(out)
+        crt_writer.Writer(scene, crt_script).write(out)
     with open(pov_script, "w") as out:
-        pov_writer.Writer(scene, size.width / size.height).write(out)
+        pov_writer.Writer(scene, size.width / size.height, pov_script).write(out)
     return Contest(
         name, scene, Crt(binding(plan.library), crt_script, size), PovRay(pov_script, size), plan
     )
@@ -158,7 +158,7 @@ def vanished(match: Contest) -> dict:
     bare = dataclasses.replace(match.scene, things=things, background=(0, 0, 0), ambient=1)
     script = match.crt.script.with_name(f"{match.name}-coverage.crt")
     with open(script, "w") as out:
-        crt_writer.Writer(bare).write(out)
+        crt_writer.Writer(bare, script).write(out)
     every = {"targeterror": 1.0, "minsamples": 1024, "maxsamples": 1024}
     image, _ = dataclasses.replace(match.crt, script=script).image(every, references.FIRST_SEED)
     cover = image.pixels[..., 0]
