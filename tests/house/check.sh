@@ -53,18 +53,21 @@ check_layers() {
     [[ -n $later ]] || continue
     lines_with "^#include [<\"]core/($later)/" "src/core/${layers[position]}/*"
   done
-  lines_with '^#include [<"](lang|cli|capi|format|lsp)/' 'src/core/*'
+  lines_with '^#include [<"](lang|cli|capi|format|service|lsp|studio)/' 'src/core/*'
   # Anybody may see what is about words, which sees nothing.
-  lines_with '^#include [<"](crt|core|lang|format|lsp|cli|capi)/' 'src/text/*'
+  lines_with '^#include [<"](crt|core|lang|format|service|lsp|studio|cli|capi)/' 'src/text/*'
   # The front end is seen by what lays scripts out and by what serves editors, and these by the
-  # command, each by one header.
-  lines_with '^#include [<"](format|lsp|cli|capi)/' 'src/lang/*'
-  lines_with '^#include [<"](format|lsp|cli)/' 'src/capi/*'
-  lines_with '^#include [<"](lsp|cli|capi)/' 'src/format/*'
-  lines_with '^#include [<"](cli|capi)/' 'src/lsp/*'
-  lines_with '^#include [<"](lang|format|lsp)/' 'src/cli/*' |
+  # command, each by one header. The studio sees the public headers alone.
+  lines_with '^#include [<"](format|service|lsp|studio|cli|capi)/' 'src/lang/*'
+  lines_with '^#include [<"](format|service|lsp|studio|cli)/' 'src/capi/*'
+  lines_with '^#include [<"](service|lsp|studio|cli|capi)/' 'src/format/*'
+  lines_with '^#include [<"](lsp|studio|cli|capi)/' 'src/service/*'
+  lines_with '^#include [<"](studio|cli|capi)/' 'src/lsp/*'
+  lines_with '^#include [<"](lang|format|service|lsp|cli|capi)/' 'src/studio/*'
+  lines_with '^#include [<"](lang|format|service|lsp|studio)/' 'src/cli/*' |
     without '"(format/format|lsp/server)\.hpp"'
-  lines_with '^#include [<"]format/' 'src/lsp/*' | without '"format/format\.hpp"'
+  lines_with '^#include [<"]format/' 'src/lsp/*' 'src/service/*' |
+    without '"format/format\.hpp"'
 }
 
 # only_in REGEX FOLDER... prints includes of a library that stand outside its folders.
@@ -77,18 +80,19 @@ only_in() {
 
 # What the public headers offer is all that lang, the command and the examples may see.
 check_public_only() {
-  lines_with '^#include [<"]core/' 'src/lang/*' 'src/format/*' 'src/lsp/*' 'src/cli/*' \
-    'src/capi/*' 'examples/*'
+  lines_with '^#include [<"]core/' 'src/lang/*' 'src/format/*' 'src/service/*' 'src/lsp/*' \
+    'src/studio/*' 'src/cli/*' 'src/capi/*' 'examples/*'
   lines_with '^#include [<"](core|lang|cli|capi)/' 'include/*'
   lines_with '^#include <glm/' 'include/*' | without '<glm/vec3.hpp>'
   lines_with '^#include <(fmt|tbb|embree|OpenImageIO|CLI)' 'include/*'
 }
 
-# crt.hpp holds every public header but script.hpp, which belongs to the library crt::lang.
+# crt.hpp holds every public header but script.hpp and language_service.hpp, which belong to the
+# libraries crt::lang and crt::service.
 check_umbrella() {
   local header
   tracked 'include/crt/*.hpp' | while IFS= read -r header; do
-    case ${header##*/} in crt.hpp | script.hpp) continue ;; esac
+    case ${header##*/} in crt.hpp | script.hpp | language_service.hpp) continue ;; esac
     grep -qF "#include <crt/${header##*/}>" include/crt/crt.hpp || echo "$header is not in crt.hpp"
   done
 }
@@ -199,10 +203,11 @@ tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once'
   complain "No #pragma once"
 lines_with '#include <format>|std::views::|std::ranges::views' "${code[@]}" |
   complain "Not with the compilers that we support"
-lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
+lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/capi/*' 'src/format/*' 'src/service/*' \
+  'src/lsp/*' |
   complain "The library reads the environment"
 lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' \
-  'src/core/*' 'src/lang/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
+  'src/core/*' 'src/lang/*' 'src/capi/*' 'src/format/*' 'src/service/*' 'src/lsp/*' |
   complain "The library prints or ends the process: log to a callback, throw crt::Error"
 lines_with '\b(TODO|FIXME|XXX|HACK)\b' \
   "${code[@]}" "${users[@]}" 'examples/*' '*.cmake' '*CMakeLists.txt' |

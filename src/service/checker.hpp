@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "lsp/program.hpp"
+#include "service/program.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 /// A longer script is not checked.
 constexpr std::size_t longest_checked = std::size_t{1} << 20;
@@ -23,4 +23,4 @@ void lower_limits(ScriptLimits& limits);
 /// script without Scene and Settings is one for others to import. Images are not decoded.
 std::vector<Diagnostic> check_script(const Program& program, ScriptOptions options);
 
-}  // namespace crt::lsp
+}  // namespace crt::service

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "lang/source_map.hpp"
-#include "lsp/program.hpp"
-#include "lsp/reference.hpp"
+#include "service/program.hpp"
+#include "service/reference.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 struct Hover {
   std::string markdown;
@@ -20,4 +20,4 @@ struct Hover {
 std::optional<Hover> hover_at(const Program& program, std::uint32_t byte,
                               const Reference& reference);
 
-}  // namespace crt::lsp
+}  // namespace crt::service

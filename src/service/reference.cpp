@@ -1,4 +1,4 @@
-#include "lsp/reference.hpp"
+#include "service/reference.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <set>
 
-namespace crt::lsp {
+namespace crt::service {
 
 namespace {
 
@@ -251,4 +251,4 @@ std::string Reference::word(std::string_view name) const {
   return found == words_.end() ? std::string() : found->second;
 }
 
-}  // namespace crt::lsp
+}  // namespace crt::service

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace crt::lsp {
+namespace crt::service {
 
 /// Returns the text of docs/language.md, as it was when the program was built.
 std::string_view reference_text();
@@ -35,4 +35,4 @@ class Reference {
   std::map<std::string, std::string, std::less<>> words_;
 };
 
-}  // namespace crt::lsp
+}  // namespace crt::service

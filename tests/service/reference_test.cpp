@@ -1,5 +1,5 @@
 // What editors show comes from the reference: there is a text for everything that it should have.
-#include "lsp/reference.hpp"
+#include "service/reference.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,10 +9,10 @@
 #include "lang/objects.hpp"
 #include "lang/settings.hpp"
 
-using crt::lsp::Reference;
+using crt::service::Reference;
 
 TEST_CASE("each built-in, constant and keyword has its text in the reference") {
-  const Reference reference(crt::lsp::reference_text());
+  const Reference reference(crt::service::reference_text());
   for (const crt::lang::Builtin& builtin : crt::lang::builtins()) {
     CAPTURE(builtin.name);
     CHECK_FALSE(reference.word(builtin.name).empty());
@@ -27,7 +27,7 @@ TEST_CASE("each built-in, constant and keyword has its text in the reference") {
 }
 
 TEST_CASE("each attribute of settings and camera has its text, and so have the lights' common") {
-  const Reference reference(crt::lsp::reference_text());
+  const Reference reference(crt::service::reference_text());
   for (const char* name : {"width", "gamma", "targeterror", "projection"})
     CHECK_FALSE(reference.attribute("Settings", name).empty());
   for (const crt::lang::AttributeType& attribute :

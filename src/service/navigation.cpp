@@ -1,4 +1,4 @@
-#include "lsp/navigation.hpp"
+#include "service/navigation.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "lang/utf8.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 namespace {
 
@@ -155,4 +155,4 @@ std::vector<DocumentSymbol> document_symbols(const Program& program) {
   return symbols;
 }
 
-}  // namespace crt::lsp
+}  // namespace crt::service

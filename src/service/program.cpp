@@ -1,4 +1,4 @@
-#include "lsp/program.hpp"
+#include "service/program.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@
 #include "lang/compat.hpp"
 #include "lang/library.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::filesystem::path Program::imported_file(const lang::Import& import) const {
   }
 }
 
-}  // namespace crt::lsp
+}  // namespace crt::service

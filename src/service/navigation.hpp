@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "lang/source_map.hpp"
-#include "lsp/program.hpp"
+#include "service/program.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 /// A Place is a piece of one of a program's sources, or the beginning of a file.
 struct Place {
@@ -48,4 +48,4 @@ struct DocumentSymbol {
 /// Lists what is set at the top level of the main script, and its blocks.
 std::vector<DocumentSymbol> document_symbols(const Program& program);
 
-}  // namespace crt::lsp
+}  // namespace crt::service

@@ -19,7 +19,7 @@
 #include "lang/symbol.hpp"
 #include "lang/syntax.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 class Program {
  public:
@@ -75,4 +75,4 @@ class Program {
 int compat_of(const lang::SourceMap& sources, const lang::Source& source,
               const ScriptOptions& options);
 
-}  // namespace crt::lsp
+}  // namespace crt::service

@@ -6,9 +6,9 @@
 #include "lang/builtins.hpp"
 #include "lang/name_map.hpp"
 #include "lang/objects.hpp"
-#include "lsp/completion.hpp"
+#include "service/completion.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 class CompletionItems {
  public:
@@ -32,4 +32,4 @@ std::string attribute_signature(const lang::AttributeType& attribute);
 /// Returns what a name is, as it was set: "tower(height, tint)", "parameter n", "n = 18".
 std::string signature_of(const Program& program, const lang::DeclaredName& name);
 
-}  // namespace crt::lsp
+}  // namespace crt::service

@@ -1,4 +1,4 @@
-#include "lsp/checker.hpp"
+#include "service/checker.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <variant>
 
-namespace crt::lsp {
+namespace crt::service {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::vector<Diagnostic> check_script(const Program& program, ScriptOptions optio
   return diagnostics;
 }
 
-}  // namespace crt::lsp
+}  // namespace crt::service

@@ -1,4 +1,4 @@
-#include "lsp/completion.hpp"
+#include "service/completion.hpp"
 
 #include <fmt/format.h>
 
@@ -14,9 +14,9 @@
 #include "lang/objects.hpp"
 #include "lang/settings.hpp"
 #include "lang/word_byte.hpp"
-#include "lsp/completion_items.hpp"
+#include "service/completion_items.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 namespace {
 
@@ -207,4 +207,4 @@ CompletionList complete(const Program& program, std::uint32_t byte, const Script
   return Completer(program, options, reference, byte).complete();
 }
 
-}  // namespace crt::lsp
+}  // namespace crt::service

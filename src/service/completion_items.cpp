@@ -1,4 +1,4 @@
-#include "lsp/completion_items.hpp"
+#include "service/completion_items.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "lang/utf8.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::string signature_of(const Program& program, const lang::DeclaredName& name)
   return fmt::format("{} = ...", text);
 }
 
-}  // namespace crt::lsp
+}  // namespace crt::service

@@ -1,4 +1,4 @@
-#include "lsp/hover.hpp"
+#include "service/hover.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "lang/objects.hpp"
 #include "lang/settings.hpp"
 #include "lang/utf8.hpp"
-#include "lsp/completion_items.hpp"
+#include "service/completion_items.hpp"
 
-namespace crt::lsp {
+namespace crt::service {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::optional<Hover> hover_at(const Program& program, std::uint32_t byte,
   return hover;
 }
 
-}  // namespace crt::lsp
+}  // namespace crt::service
