@@ -2,6 +2,7 @@
 #   runtime      libcrt.so.1 and the module for image files
 #   development  headers, the link libcrt.so, static libraries, the CMake package crt and crt.pc
 #   command      the command crt, its manual page, and completions for shells
+#   studio       the program crt-studio, which the command starts
 # None of them names an absolute path that it needs, so an installed
 #   tree may be moved.
 include(CMakePackageConfigHelpers)
@@ -77,6 +78,9 @@ install(FILES ${PROJECT_BINARY_DIR}/package/crt.pc
 
 if(CRT_BUILD_CLI)
   install(TARGETS crt RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+  if(TARGET crt-studio)
+    install(TARGETS crt-studio RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT studio)
+  endif()
   set(share ${PROJECT_BINARY_DIR}/share)
   install(FILES ${share}/man/crt.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
   foreach(place "completions_bash/crt:bash-completion/completions"

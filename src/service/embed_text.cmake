@@ -1,5 +1,5 @@
-# Writes a C++ source to OUT with a function of crt::service called FUNCTION, which returns the text of
-# the file IN.
+# Writes a C++ source to OUT with a function of crt::service called FUNCTION, which returns the
+# text of the file IN.
 file(READ "${IN}" text)
 set(fence "crt_text")
 # A string that is too long for some compilers is put together from parts.

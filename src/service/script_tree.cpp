@@ -81,7 +81,9 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
         describe_value(program_, *syntax.value, attribute);
       }
       nodes_[owner].attributes.push_back(std::move(attribute));
-      visit(syntax.value);
+      // A variable's name says nothing more than the attribute does.
+      if (syntax.value && !std::holds_alternative<lang::Name>(syntax.value->node))
+        visit(syntax.value);
     }
   }
 
