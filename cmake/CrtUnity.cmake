@@ -5,7 +5,7 @@
 target_compile_options(crt_compile INTERFACE -Wno-shadow)
 
 foreach(target crt_core crt_lang crt_capi_objects crt_format crt_service crt_lsp crt_trade
-  crt)
+  crt_studio_parts crt)
   if(NOT TARGET ${target})
     continue()
   endif()

@@ -153,7 +153,7 @@ export class Editor {
   select(span: Span, takesFocus: boolean): void {
     const length = this.view.state.doc.length;
     const [anchor, head] = [Math.min(span[0], length), Math.min(span[1], length)];
-    this.view.dispatch({selection: {anchor, head}, scrollIntoView: true});
+    this.view.dispatch({selection: {anchor, head}, effects: EditorView.scrollIntoView(anchor)});
     if (takesFocus) this.view.focus();
   }
 

@@ -177,11 +177,12 @@ class Studio {
     this.dock.getPanel('console')!.api.setActive();
     this.dock.getPanel('editor')!.api.setActive();
     // Sizes hold once the panels have been laid out.
-    requestAnimationFrame(() => {
-      this.dock.getPanel('editor')?.group.api.setSize({width: width * 0.34});
-      this.dock.getPanel('tree')?.group.api.setSize({width: width * 0.24, height: height * 0.4});
-      this.dock.getPanel('console')?.group.api.setSize({height: height * 0.22});
-    });
+    const dock = document.getElementById('dock')!;
+    this.dock.layout(dock.clientWidth, dock.clientHeight, true);
+    this.dock.getPanel('editor')!.group.api.setSize({width: width * 0.33});
+    this.dock.getPanel('tree')!.group.api.setSize({width: width * 0.23});
+    this.dock.getPanel('tree')!.group.api.setSize({height: height * 0.4});
+    this.dock.getPanel('console')!.group.api.setSize({height: height * 0.22});
   }
 
   // ---- messages
@@ -345,13 +346,25 @@ class Studio {
     let object = index;
     while (object >= 0 && !['object', 'settings'].includes(this.nodes[object]!.kind))
       object = this.nodes[object]!.parent;
-    // What is placed, combined or assigned shows the first object in it.
-    if (object < 0 && index >= 0) {
-      const [from, to] = this.nodes[index]!.span;
-      object = this.nodes.findIndex(({kind, span}) =>
-        kind === 'object' && span[0] >= from && span[1] <= to);
-    }
+    if (object < 0 && index >= 0) object = this.firstObjectIn(index, new Set());
     this.sheet.show(this.nodes[object] ?? null);
+  }
+
+  /** Finds the first object in what is placed, combined or assigned, also behind a variable. */
+  private firstObjectIn(index: number, seen: Set<number>): number {
+    if (seen.has(index)) return -1;
+    seen.add(index);
+    const [from, to] = this.nodes[index]!.span;
+    for (const [inner, {kind, name, span}] of this.nodes.entries()) {
+      if (span[0] < from || span[1] > to) continue;
+      if (kind === 'object') return inner;
+      if (kind !== 'name' && kind !== 'call') continue;
+      const assignment = this.nodes.findIndex((node) =>
+        node.kind === 'assignment' && node.name === name);
+      const found = assignment < 0 ? -1 : this.firstObjectIn(assignment, seen);
+      if (found >= 0) return found;
+    }
+    return -1;
   }
 
   private async pick(x: number, y: number, focuses: boolean): Promise<void> {
