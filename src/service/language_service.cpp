@@ -78,6 +78,9 @@ FormattedScript format_script(std::string_view text, const std::string& name) {
 }
 
 struct LanguageService::State {
+  State(const std::string& text, const std::string& name, const ScriptOptions& low)
+      : options(low), program(text, name, low) {}
+
   ScriptOptions options;
   service::Program program;
 
@@ -90,8 +93,7 @@ struct LanguageService::State {
 
 LanguageService::LanguageService(const std::string& text, const std::string& name,
                                  const ScriptOptions& options) {
-  const ScriptOptions low = with_low_limits(options);
-  state_ = std::unique_ptr<State>(new State{low, service::Program(text, name, low)});
+  state_ = std::make_unique<State>(text, name, with_low_limits(options));
 }
 
 LanguageService::~LanguageService() = default;

@@ -58,7 +58,7 @@ fs::path Folder::file_of(std::string_view name) const {
   if (relative.extension() != ".crt") refuse("is no script: scripts end in .crt");
   if (relative.is_absolute()) refuse("is not in the opened folder");
   std::error_code failed;
-  const fs::path file = fs::weakly_canonical(path_ / relative, failed);
+  fs::path file = fs::weakly_canonical(path_ / relative, failed);
   if (failed || !is_within(file, path_)) refuse("is not in the opened folder");
   if (file.extension() != ".crt") refuse("is no script: scripts end in .crt");
   return file;

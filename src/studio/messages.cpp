@@ -111,9 +111,12 @@ json diagnostics_message(const Analysis& analysis) {
     const bool is_main = diagnostic.place.file == analysis.revision.name;
     const TextSpan span = is_main ? span_of(*analysis.revision.text, diagnostic.place) : TextSpan{};
     std::string message = diagnostic.message;
-    if (!is_main)
-      message =
-          diagnostic.place.file + ":" + std::to_string(diagnostic.place.line) + ": " + message;
+    if (!is_main) {
+      message.insert(0, ": ");
+      message.insert(0, std::to_string(diagnostic.place.line));
+      message.insert(0, ":");
+      message.insert(0, diagnostic.place.file);
+    }
     list.push_back({{"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
                     {"message", std::move(message)},
                     {"line", is_main ? diagnostic.place.line : 1},

@@ -50,11 +50,11 @@ class StudioClient : public Client {
                const StudioOptions& options)
       : connection_(std::move(connection)),
         folder_(std::move(folder)),
-        handlers_{{"open", &StudioClient::open},      {"text", &StudioClient::take_text},
-                  {"camera", &StudioClient::camera},  {"acknowledge", &StudioClient::acknowledge},
-                  {"render", &StudioClient::render},  {"ask", &StudioClient::ask},
-                  {"pick", &StudioClient::pick},      {"save", &StudioClient::save},
-                  {"picture", &StudioClient::picture}},
+        handlers_{{"open", &StudioClient::open},       {"text", &StudioClient::take_text},
+                  {"camera", &StudioClient::camera},   {"acknowledge", &StudioClient::acknowledge},
+                  {"render", &StudioClient::render},   {"ask", &StudioClient::ask},
+                  {"pick", &StudioClient::pick},       {"save", &StudioClient::save},
+                  {"picture", &StudioClient::picture}, {"look", &StudioClient::look}},
         analyst_([this](const Analysis& analysis) { send(tokens_message(analysis)); },
                  [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
         renderer_(events(), options.threads) {
@@ -167,7 +167,7 @@ class StudioClient : public Client {
     if (answer == answers.end()) throw Error(ErrorCode::invalid_argument, "nobody can answer this");
     const auto unit = message.at("at").get<std::uint32_t>();
     const auto revision = message.at("revision").get<std::uint32_t>();
-    const json id = message.at("id");
+    const json& id = message.at("id");
     const bool is_taken =
         analyst_.ask([this, unit, revision, id, answer](const Analysis& analysis) {
           const bool is_old = analysis.revision.number != revision;
@@ -214,6 +214,20 @@ class StudioClient : public Client {
       if (error.code() == ErrorCode::io) return false;  // there is none
       throw;
     }
+  }
+
+  /// Sends the script's file if another program has written it.
+  void look(const json&) {
+    if (script_.empty() || !on_disk_) return;
+    std::string now;
+    try {
+      now = folder_->read(script_);
+    } catch (const Error&) {
+      return;  // it is gone, or is being written
+    }
+    if (now == *on_disk_) return;
+    on_disk_ = std::move(now);
+    send({{"type", "changed"}, {"script", script_}, {"text", with_plain_line_ends(*on_disk_)}});
   }
 
   /// Sends the last whole picture as a file.

@@ -266,6 +266,9 @@ class WebServer::State {
       acceptor_.bind(place);
       acceptor_.listen();
       shared_->port = acceptor_.local_endpoint().port();
+      // Whoever has read the address may interrupt at once.
+      signals_.add(SIGINT);
+      signals_.add(SIGTERM);
     } catch (const boost::system::system_error& error) {
       throw Error(ErrorCode::io, "cannot listen on " + options.address + ":" +
                                      std::to_string(options.port) + ": " + error.code().message());
@@ -275,8 +278,6 @@ class WebServer::State {
   std::uint16_t port() const { return shared_->port; }
 
   void run() {
-    signals_.add(SIGINT);
-    signals_.add(SIGTERM);
     signals_.async_wait([this](Code failed, int) {
       if (!failed) end();
     });

@@ -49,7 +49,8 @@ class WebServer {
  public:
   using MakeClient = std::function<std::unique_ptr<Client>(std::shared_ptr<Connection>)>;
 
-  /// Listens at once. Throws Error (io) if the address or port cannot be had.
+  /// Listens at once, and takes note of signals from then on. Throws Error (io) if the address or
+  /// port cannot be had.
   WebServer(const WebServerOptions& options, MakeClient make_client);
   ~WebServer();
   WebServer(const WebServer&) = delete;

@@ -241,6 +241,25 @@ class Work(unittest.TestCase):
         client.send(type="save", script="new.crt", text="c = 4\n")
         self.assertEqual(client.wait("saved")["scripts"], ["a.crt", "new.crt"])
 
+    def test_what_another_program_writes_is_seen_once(self):
+        client = self.start()
+        client.send(type="look")
+        (self.folder / "a.crt").write_text("b = 2\n")
+        client.send(type="look")
+        self.assertEqual(client.wait("changed")["text"], "b = 2\n")
+        client.send(type="look")
+        (self.folder / "a.crt").unlink()
+        client.send(type="look")
+        (self.folder / "a.crt").write_text("c = 3\n")
+        client.send(type="look")
+        self.assertEqual(client.wait("changed")["text"], "c = 3\n")
+        client.send(type="save", script="a.crt", text="d = 4\n")
+        client.wait("saved")
+        client.send(type="look")
+        client.send(type="nothing")
+        seen = client.wait("error")
+        self.assertEqual(seen["about"], "nothing")
+
     def test_line_ends_stay_those_of_the_file(self):
         (self.folder / "a.crt").write_bytes(b"a = 1\r\nb = 2\r\n")
         client = self.client()

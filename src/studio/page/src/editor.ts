@@ -170,14 +170,22 @@ export class Editor {
   async format(): Promise<void> {
     const before = this.text;
     const text = await this.host.ask('format', 0);
-    if (typeof text !== 'string' || this.text !== before || text === before) return;
+    if (typeof text !== 'string' || this.text !== before) return;
+    this.replace(text);
+  }
+
+  /** Makes the text another one by an edit of what differs, which can be undone. */
+  replace(text: string): void {
+    const before = this.text;
+    if (text === before) return;
     let begin = 0;
     while (begin < before.length && before[begin] === text[begin]) ++begin;
     let same = 0;
     const most = Math.min(before.length, text.length) - begin;
     while (same < most && before[before.length - 1 - same] === text[text.length - 1 - same]) ++same;
-    this.view.dispatch({changes: {
-      from: begin, to: before.length - same, insert: text.slice(begin, text.length - same)}});
+    this.view.dispatch({
+      changes: {from: begin, to: before.length - same, insert: text.slice(begin, text.length - same)},
+      annotations: isolateHistory.of('full')});
   }
 
   async goToDefinition(place = this.view.state.selection.main.head): Promise<void> {

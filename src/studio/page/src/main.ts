@@ -15,6 +15,8 @@ import type {Camera, Message, Pick, Scene, TreeNode} from './protocol';
 import {Tree} from './tree';
 
 const layoutKey = 'crt-studio:layout';
+/** In this interval the server is asked whether another program has written the script. */
+const lookMilliseconds = 1000;
 const themeKey = 'crt-studio:theme';
 
 class Studio {
@@ -86,6 +88,7 @@ class Studio {
       file: (format, content) => this.download(format, content),
       connected: (isConnected) => this.connected(isConnected),
     });
+    setInterval(() => this.connection.send({type: 'look'}), lookMilliseconds);
     addEventListener('beforeunload', (event) => {
       if (this.isChanged) event.preventDefault();
     });
@@ -233,6 +236,9 @@ class Studio {
       case 'print':
         this.console.add(message.line, 'print');
         break;
+      case 'changed':
+        if (message.script === this.script) this.changedOutside(message.text);
+        break;
       case 'saved':
         this.saved(message.script, message.scripts);
         break;
@@ -304,6 +310,39 @@ class Studio {
 
   private sendText(): void {
     this.connection.send({type: 'text', revision: this.revision, text: this.editor.text});
+  }
+
+  /** Another program has written the file. What was typed here is replaced only if one says so. */
+  private changedOutside(text: string): void {
+    if (text === this.editor.text || !this.isChanged) {
+      this.takeFile(text);
+      return this.console.add(`${this.script} was changed by another program, and is shown so.`);
+    }
+    this.savedText = text;
+    this.ask(`${this.script} was changed by another program, and here, too.`, {
+      'Take the file': () => this.takeFile(text),
+      'Keep what is here': () => undefined,
+    });
+  }
+
+  private takeFile(text: string): void {
+    this.savedText = text;
+    this.editor.replace(text);
+  }
+
+  /** Asks by a bar that keeps nobody from going on. */
+  private ask(question: string, answers: Record<string, () => void>): void {
+    const bar = document.getElementById('question')!;
+    const buttons = Object.entries(answers).map(([text, action]) => {
+      const button = document.createElement('button');
+      button.textContent = text;
+      button.addEventListener('click', () => {
+        bar.replaceChildren();
+        action();
+      });
+      return button;
+    });
+    bar.replaceChildren(question, ...buttons);
   }
 
   private save(force: boolean): void {

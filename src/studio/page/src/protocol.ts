@@ -105,6 +105,7 @@ export type Message =
   | {type: 'answer'; id: number; revision?: number; result: unknown}
   | {type: 'finished'; revision: number; stats: Record<string, number>}
   | {type: 'print'; line: string}
+  | {type: 'changed'; script: string; text: string}
   | {type: 'saved'; script: string; scripts: string[]}
   | {type: 'conflict'; script: string; message: string}
   | {type: 'error'; message: string; id?: number; about?: string}

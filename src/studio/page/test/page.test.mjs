@@ -221,6 +221,23 @@ withPage('saving writes the file', async ({page, folder}) => {
   assert.equal(readFileSync(join(folder, 'a.crt'), 'utf8'), scene.replace('0.7', '0.6'));
 });
 
+withPage('what another program writes is shown, and what was typed is not lost by it',
+         async ({page, folder}) => {
+  writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.4'));
+  await page.waitForFunction(() => studio.editor.text.includes('radius -> 0.4'));
+  assert.equal(await page.evaluate(() => studio.isChanged), false);
+  await type(page, '0.4', '0.45');
+  writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.9'));
+  await page.getByRole('button', {name: 'Keep what is here'}).click();
+  assert.match(await text(page), /radius -> 0\.45/);
+  writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.8'));
+  await page.getByRole('button', {name: 'Take the file'}).click();
+  assert.equal(await text(page), scene.replace('0.7', '0.8'));
+  await page.evaluate(() => studio.editor.view.focus());
+  await page.keyboard.press('Control+z');
+  assert.match(await text(page), /radius -> 0\.45/);
+});
+
 withPage('nothing that was typed is lost with the page', async ({page, folder, server}) => {
   await type(page, '0.7', '0.55');
   const next = await page.context().newPage();
