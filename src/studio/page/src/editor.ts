@@ -204,7 +204,7 @@ export class Editor {
       indentOnInput(), indentUnit.of('    '), bracketMatching(), search({top: true}),
       highlightSelectionMatches(), lintGutter(), this.plugin, theme,
       EditorView.contentAttributes.of({'aria-label': 'Script'}),
-      autocompletion({override: [(context) => this.complete(context)]}),
+      autocompletion({icons: false, override: [(context) => this.complete(context)]}),
       hoverTooltip((_view, place) => this.hover(place)),
       EditorView.domEventHandlers({
         mousedown: (event, view) => {
