@@ -2,6 +2,7 @@
 #   runtime      libcrt.so.1 and the module for image files
 #   development  headers, the link libcrt.so, static libraries, the CMake package crt and crt.pc
 #   command      the command crt, its manual page, and completions for shells
+#   studio       the program crt-studio, which the command starts
 # None of them names an absolute path that it needs, so an installed
 #   tree may be moved.
 include(CMakePackageConfigHelpers)
@@ -10,11 +11,13 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crt)
 
 install(TARGETS crt_image_files EXPORT crt_static
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/crt COMPONENT runtime)
-install(TARGETS crt_core crt_lang crt_farm crt_capi_static EXPORT crt_static
+install(TARGETS crt_core crt_lang crt_farm crt_format crt_service crt_capi_static EXPORT crt_static
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 set_target_properties(crt_core PROPERTIES EXPORT_NAME core)
 set_target_properties(crt_lang PROPERTIES EXPORT_NAME lang)
 set_target_properties(crt_farm PROPERTIES EXPORT_NAME farm)
+set_target_properties(crt_format PROPERTIES EXPORT_NAME format)
+set_target_properties(crt_service PROPERTIES EXPORT_NAME service)
 set_target_properties(crt_image_files PROPERTIES EXPORT_NAME image_files)
 install(EXPORT crt_static NAMESPACE crt:: FILE crtStaticTargets.cmake
   DESTINATION ${package_dir} COMPONENT development)
@@ -76,6 +79,9 @@ install(FILES ${PROJECT_BINARY_DIR}/package/crt.pc
 
 if(CRT_BUILD_CLI)
   install(TARGETS crt RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+  if(TARGET crt-studio)
+    install(TARGETS crt-studio RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT studio)
+  endif()
   set(share ${PROJECT_BINARY_DIR}/share)
   install(FILES ${share}/man/crt.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
   foreach(place "completions_bash/crt:bash-completion/completions"

@@ -1,4 +1,4 @@
-# CPack makes the Debian packages libcrt1, libcrt-dev and crt, a component each (see
+# CPack makes the Debian packages libcrt1, libcrt-dev, crt and crt-studio, a component each (see
 # CrtInstall.cmake). `./dev package` makes them of the release build, whose prefix is /usr.
 set(runtime_package libcrt${PROJECT_VERSION_MAJOR})
 
@@ -11,9 +11,13 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
 
 set(CPACK_COMPONENTS_ALL runtime development command)
+if(TARGET crt-studio)
+  list(APPEND CPACK_COMPONENTS_ALL studio)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
 set(CPACK_COMPONENT_COMMAND_DEPENDS runtime)
+set(CPACK_COMPONENT_STUDIO_DEPENDS runtime command)
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
@@ -58,7 +62,16 @@ ${about}
 This package has the command crt, which renders scenes written in CRT's own
 small language to image files.")
 
+set(CPACK_DEBIAN_STUDIO_PACKAGE_NAME crt-studio)
+set(CPACK_DEBIAN_STUDIO_PACKAGE_SECTION graphics)
+set(CPACK_COMPONENT_STUDIO_DESCRIPTION "ray tracer of analytic solids: studio
+${about}
+.
+This package has what the command crt studio starts: a server for a page in a
+browser, to write a scene and to see its picture meanwhile.")
+
 file(READ ${PROJECT_SOURCE_DIR}/share/fonts/LICENSE.Liberation font_licence)
+file(READ ${PROJECT_SOURCE_DIR}/src/studio/page/dist/licenses.txt page_licences)
 # Each Debian package has a file with its licence. Only Debian wants it.
 file(WRITE ${PROJECT_BINARY_DIR}/package/copyright
 "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
@@ -72,8 +85,12 @@ License: Apache-2.0
 
 The libraries hold the font Liberation Sans, for which this is said:
 
-${font_licence}")
-foreach(component runtime development command)
+${font_licence}
+
+The studio's page holds these packages of npm:
+
+${page_licences}")
+foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} name)
   install(FILES ${PROJECT_BINARY_DIR}/package/copyright
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME}

@@ -27,6 +27,14 @@ struct SourcePlace {
   friend bool operator==(const SourcePlace&, const SourcePlace&) = default;
 };
 
+/// A TextSpan is a piece of a script, [begin, end), in bytes.
+struct TextSpan {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+
+  friend bool operator==(const TextSpan&, const TextSpan&) = default;
+};
+
 /// Says how bad a diagnostic is.
 enum class Severity { warning, error };
 
@@ -92,11 +100,24 @@ struct ScriptOptions {
   std::function<bool()> go_on{};
 };
 
+/// An EntityPlace says which pieces of the main script put an entity into the scene.
+struct EntityPlace {
+  /// This is the statement outside of all macros: within the Scene block, or in a loop in there.
+  TextSpan statement{};
+  /// This is the statement that gave the entity, such as that of an object in a macro. If it is in
+  /// an imported script, it is the same as `statement`.
+  TextSpan origin{};
+
+  friend bool operator==(const EntityPlace&, const EntityPlace&) = default;
+};
+
 /// A ScriptResult is what running a script gave.
 struct ScriptResult {
   /// The scene is present if there was no error.
   std::optional<Scene> scene{};
   std::vector<Diagnostic> diagnostics{};
+  /// Says where each of the scene's entities comes from, in their order.
+  std::vector<EntityPlace> entity_places{};
   /// Says whether the script or an import reads the constant `t`, once there is a scene. If not,
   /// every `t` gives the same scene.
   bool reads_time = false;

@@ -27,6 +27,10 @@ ExitCode run_format(const FormatRequest& request);
 
 /// Serves an editor on standard input and output, until it ends that.
 ExitCode run_lsp(const LspRequest& request);
+
+/// Becomes the program that serves the studio.
+ExitCode run_studio(const StudioRequest& request);
+
 /// Prints the completions for a shell.
 ExitCode run_completions(const CompletionsRequest& request);
 

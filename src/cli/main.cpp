@@ -21,6 +21,7 @@ struct Run {
   ExitCode operator()(const TradeRequest& request) const { return run_trade(request); }
   ExitCode operator()(const FormatRequest& request) const { return run_format(request); }
   ExitCode operator()(const LspRequest& request) const { return run_lsp(request); }
+  ExitCode operator()(const StudioRequest& request) const { return run_studio(request); }
   ExitCode operator()(const WatchRequest& request) const { return run_watch(request); }
   ExitCode operator()(const CompletionsRequest& request) const { return run_completions(request); }
   ExitCode operator()(const ManRequest& request) const { return run_man(request); }

@@ -41,6 +41,7 @@ CommandTable check_table(CheckRequest& request);
 CommandTable new_table(NewRequest& request);
 CommandTable format_table(FormatRequest& request);
 CommandTable lsp_table();
+CommandTable studio_table(StudioRequest& request);
 CommandTable completions_table(CompletionsRequest& request);
 CommandTable man_table();
 /// `command` gets the name of the command whose help is asked for, one of `commands`.

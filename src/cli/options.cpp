@@ -236,6 +236,8 @@ Request parse_command_line(int argc, const char* const* argv) {
   FormatRequest format_request;
   const CLI::App& format = add_command(app, format_table(format_request));
   const CLI::App& lsp = add_command(app, lsp_table());
+  StudioRequest studio_request;
+  const CLI::App& studio = add_command(app, studio_table(studio_request));
   CompletionsRequest completions_request;
   const CLI::App& completions = add_command(app, completions_table(completions_request));
   const CLI::App& man = add_command(app, man_table());
@@ -263,6 +265,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   if (create.parsed()) return new_request;
   if (format.parsed()) return format_request;
   if (lsp.parsed()) return LspRequest{};
+  if (studio.parsed()) return studio_request;
   if (trade.parsed()) return trade_request;
   if (farm.parsed()) return farm_request;
   if (watch.parsed()) return watch_request;

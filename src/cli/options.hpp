@@ -126,6 +126,13 @@ struct FormatRequest : CommonRequest {
 /// An LspRequest asks for the language server. All else is asked by its client.
 struct LspRequest {};
 
+/// A StudioRequest asks for the page that shows a script while it is written.
+struct StudioRequest : CommonRequest {
+  std::filesystem::path scene;  ///< a script or a folder; empty for the current folder
+  int port = 0;                 ///< 0 takes one that is free
+  int threads = 0;
+};
+
 /// Asks for the completions of all commands in a shell.
 struct CompletionsRequest {
   std::string shell;  ///< bash, zsh or fish
@@ -139,9 +146,9 @@ struct ManRequest {
 
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
-using Request =
-    std::variant<RenderRequest, FarmRequest, WatchRequest, CheckRequest, TradeRequest, NewRequest,
-                 FormatRequest, LspRequest, CompletionsRequest, ManRequest, ExitCode>;
+using Request = std::variant<RenderRequest, FarmRequest, WatchRequest, CheckRequest, TradeRequest,
+                             NewRequest, FormatRequest, LspRequest, StudioRequest,
+                             CompletionsRequest, ManRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

@@ -1,5 +1,5 @@
-// The options of `crt trade`, `crt check`, `crt new`, `crt format`, `crt lsp` and the commands
-// about the command itself.
+// The options of `crt trade`, `crt check`, `crt new`, `crt format`, `crt lsp`, `crt studio` and the
+// commands about the command itself.
 #include <fmt/format.h>
 
 #include <string_view>
@@ -126,6 +126,31 @@ CommandTable lsp_table() {
                     .type = "",
                     .help = "on standard input and output, which it does anyway",
                     .take = [](const std::string&) {}}}};
+}
+
+CommandTable studio_table(StudioRequest& request) {
+  CommandTable table{
+      .name = "studio",
+      .about = "Serves a page to write a script in and to see its picture meanwhile.",
+      .footer = R"(Open the address that it prints in a browser on the same machine. It
+serves until it is interrupted. The page can read and write scripts in the script's folder alone.
+docs/studio.md says how it is used, also from another machine.)",
+      .rows = {}};
+  table.rows.push_back({.names = "scene",
+                        .type = "SCENE.crt",
+                        .help = "the script, or a folder with scripts (default: this folder)",
+                        .take = into_path(request.scene)});
+  table.rows.push_back({.names = "--port",
+                        .type = "N",
+                        .help = "the port, from 1 to 65535 (default: one that is free)",
+                        .take = [&request](const std::string& text) {
+                          constexpr int highest = 65535;
+                          if (!parse_whole(text, request.port) || request.port < 1 ||
+                              request.port > highest)
+                            throw WrongValue("--port", "a whole number from 1 to 65535", text);
+                        }});
+  add_threads_row(table.rows, request.threads);
+  return table;
 }
 
 CommandTable completions_table(CompletionsRequest& request) {

@@ -51,6 +51,7 @@ void Interpreter::execute(const Block& block) {
 
 void Interpreter::execute(const Statement& statement) {
   check_stack(statement.span);
+  if (call_depth_ == 0) statement_ = statement.span;
   std::visit([this](const auto& node) { execute_node(node); }, statement.node);
 }
 
@@ -236,6 +237,7 @@ std::string Interpreter::how_to_call(const MacroValue& macro, Span span) const {
 void Interpreter::emit_entity(const Entity& entity, Span span) {
   if (emission_.into_scene) {
     context_.count_emitted(span, std::max<std::uint64_t>(entity.primitive_count(), 1));
+    entity_spans_.push_back({statement_, span});
   } else {
     context_.count_made(span);
   }

@@ -57,6 +57,8 @@ class Interpreter {
 
   bool has_scene() const { return has_scene_; }
   std::vector<Entity>& entities() { return entities_; }
+  /// Returns the statement outside of macros and the one that gave the entity, of each of them.
+  const std::vector<std::pair<Span, Span>>& entity_spans() const { return entity_spans_; }
   const std::optional<Span>& settings_span() const { return settings_span_; }
   std::vector<Given>& settings() { return settings_; }
 
@@ -171,6 +173,8 @@ class Interpreter {
   bool is_import_ = false;
   bool has_scene_ = false;
   std::vector<Entity> entities_;
+  std::vector<std::pair<Span, Span>> entity_spans_;
+  Span statement_{};  ///< the last one that ran outside of macros
   std::optional<Span> settings_span_;
   std::vector<Given> settings_;
   std::function<void(const Import&)> importer_;

@@ -133,6 +133,21 @@ void Session::run(std::string_view text, const std::string& name, ScriptResult& 
   if (const Script* script = load(source, TextKind::script)) run_main(source, *script, result);
 }
 
+/// Turns spans into places in the main script.
+std::vector<EntityPlace> places_of_entities(const Source& main,
+                                            const std::vector<std::pair<Span, Span>>& spans) {
+  const auto in_main = [&](Span span) {
+    return TextSpan{span.begin - main.base, span.end - main.base};
+  };
+  std::vector<EntityPlace> places;
+  places.reserve(spans.size());
+  for (const auto& [statement, origin] : spans) {
+    const bool is_in_main = origin.begin >= main.base && origin.end <= main.base + main.text.size();
+    places.push_back({in_main(statement), in_main(is_in_main ? origin : statement)});
+  }
+  return places;
+}
+
 void Session::run_main(const Source& source, const Script& script, ScriptResult& result) {
   const NameUses name_uses = std::move(name_uses_);
   interpreter_.set_name_uses(name_uses);
@@ -164,6 +179,7 @@ void Session::run_main(const Source& source, const Script& script, ScriptResult&
   }
   result.reads_time = reads_time_;
   scene.entities = std::move(interpreter_.entities());
+  result.entity_places = places_of_entities(source, interpreter_.entity_spans());
   result.scene = std::move(scene);
 }
 

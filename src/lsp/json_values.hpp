@@ -4,12 +4,15 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "lsp/completion.hpp"
-#include "lsp/navigation.hpp"
 #include "lsp/positions.hpp"
 #include "lsp/workspace.hpp"
+#include "service/completion.hpp"
+#include "service/navigation.hpp"
 
 namespace crt::lsp {
+
+using service::DocumentSymbol;
+using service::Place;
 
 // What the JSON library throws says that a value is not as it should be.
 Position position_of_json(const nlohmann::json& value);

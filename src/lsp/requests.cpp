@@ -5,19 +5,19 @@
 #include <utility>
 
 #include "format/format.hpp"
-#include "lsp/completion.hpp"
-#include "lsp/hover.hpp"
 #include "lsp/json_values.hpp"
-#include "lsp/navigation.hpp"
 #include "lsp/semantic_tokens.hpp"
 #include "lsp/uri.hpp"
+#include "service/completion.hpp"
+#include "service/hover.hpp"
+#include "service/navigation.hpp"
 
 namespace crt::lsp {
 
 using nlohmann::json;
 
 Requests::Requests()
-    : reference_(reference_text()),
+    : reference_(service::reference_text()),
       methods_{
           {"textDocument/completion", &Requests::completion},
           {"textDocument/hover", &Requests::hover},

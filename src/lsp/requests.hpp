@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "lsp/reference.hpp"
 #include "lsp/workspace.hpp"
+#include "service/reference.hpp"
 
 namespace crt::lsp {
+
+using service::Reference;
 
 /// A RequestError is the answer to a request that cannot be done.
 struct RequestError : std::runtime_error {

@@ -7,29 +7,17 @@
 #include <vector>
 
 #include "lsp/positions.hpp"
-#include "lsp/program.hpp"
+#include "service/program.hpp"
 
 namespace crt::lsp {
 
-/// These are the protocol's names of the types, in the order of TokenType.
+/// These are the protocol's names of the types, in the order of TokenKind.
 constexpr std::array<std::string_view, 9> token_types = {"comment",  "string",    "number",
                                                          "keyword",  "class",     "property",
                                                          "variable", "parameter", "function"};
 
-enum class TokenType : std::uint32_t {
-  comment,
-  string,
-  number,
-  keyword,
-  object,
-  attribute,
-  variable,
-  parameter,
-  function,
-};
-
 /// Returns the tokens of the main script as the protocol has them: five numbers each, of which the
 /// first two are the distance from the token before.
-std::vector<std::uint32_t> semantic_tokens(const Program& program, Encoding encoding);
+std::vector<std::uint32_t> semantic_tokens(const service::Program& program, Encoding encoding);
 
 }  // namespace crt::lsp

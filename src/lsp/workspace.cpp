@@ -4,8 +4,8 @@
 #include <set>
 #include <utility>
 
-#include "lsp/checker.hpp"
 #include "lsp/uri.hpp"
+#include "service/checker.hpp"
 
 namespace crt::lsp {
 
@@ -100,7 +100,7 @@ const Program& Workspace::program(Document& document) const {
 
 ScriptOptions Workspace::options() const {
   ScriptOptions options;
-  lower_limits(options.limits);
+  service::lower_limits(options.limits);
   options.resource_directories = resources_;
   options.open_file = [this](const std::filesystem::path& path) {
     std::optional<std::vector<std::byte>> content;
@@ -147,7 +147,7 @@ std::vector<FileDiagnostics> Workspace::check_next() {
     if (!std::exchange(document.is_to_check, false)) continue;
     ByFile found;
     found[uri];  // where nothing is wrong any more, that is said, too
-    for (Diagnostic& diagnostic : check_script(program(document), options()))
+    for (Diagnostic& diagnostic : service::check_script(program(document), options()))
       found[uri_of_name(diagnostic.place.file)].push_back(std::move(diagnostic));
     return replace_found(uri, std::move(found));
   }

@@ -13,11 +13,14 @@
 #include <vector>
 
 #include "lang/source_map.hpp"
-#include "lsp/navigation.hpp"
 #include "lsp/positions.hpp"
-#include "lsp/program.hpp"
+#include "service/navigation.hpp"
+#include "service/program.hpp"
 
 namespace crt::lsp {
+
+using service::Place;
+using service::Program;
 
 /// A Document is a text that is open in the editor.
 struct Document {

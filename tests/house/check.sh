@@ -19,9 +19,13 @@ complain() {
   breaches=$((breaches + 1))
 }
 
-# tracked PATTERN... prints the tracked files that match and exist.
+# tracked PATTERN... prints the tracked files that match and exist. What npm makes is no source, and
+# style sheets have words of their own.
 tracked() {
-  git ls-files -- "$@" | while IFS= read -r file; do [[ ! -f $file ]] || printf '%s\n' "$file"; done
+  git ls-files -- "$@" | while IFS= read -r file; do
+    case $file in src/studio/page/dist/* | */package-lock.json | *.css) continue ;; esac
+    [[ ! -f $file ]] || printf '%s\n' "$file"
+  done
 }
 
 # lines_with REGEX PATTERN... prints file:line:text for each match in the tracked files that match.
@@ -53,21 +57,25 @@ check_layers() {
     [[ -n $later ]] || continue
     lines_with "^#include [<\"]core/($later)/" "src/core/${layers[position]}/*"
   done
-  lines_with '^#include [<"](lang|farm|cli|capi|format|lsp)/' 'src/core/*'
+  lines_with '^#include [<"](lang|farm|cli|capi|format|service|lsp|studio)/' 'src/core/*'
   # Jobs use the renderer and run scripts as any program does.
-  lines_with '^#include [<"](lang|cli|capi|format|lsp)/' 'src/farm/*'
-  lines_with '^#include [<"]farm/' 'src/lang/*' 'src/format/*' 'src/lsp/*' 'src/capi/*' 'src/cli/*'
+  lines_with '^#include [<"](lang|cli|capi|format|service|lsp|studio)/' 'src/farm/*'
+  lines_with '^#include [<"]farm/' 'src/lang/*' 'src/format/*' 'src/service/*' 'src/lsp/*' \
+    'src/studio/*' 'src/capi/*' 'src/cli/*'
   # Anybody may see what is about words, which sees nothing.
-  lines_with '^#include [<"](crt|core|lang|format|lsp|cli|capi)/' 'src/text/*'
+  lines_with '^#include [<"](crt|core|lang|format|service|lsp|studio|cli|capi)/' 'src/text/*'
   # The front end is seen by what lays scripts out and by what serves editors, and these by the
-  # command, each by one header.
-  lines_with '^#include [<"](format|lsp|cli|capi)/' 'src/lang/*'
-  lines_with '^#include [<"](format|lsp|cli)/' 'src/capi/*'
-  lines_with '^#include [<"](lsp|cli|capi)/' 'src/format/*'
-  lines_with '^#include [<"](cli|capi)/' 'src/lsp/*'
-  lines_with '^#include [<"](lang|format|lsp)/' 'src/cli/*' |
+  # command, each by one header. The studio sees the public headers alone.
+  lines_with '^#include [<"](format|service|lsp|studio|cli|capi)/' 'src/lang/*'
+  lines_with '^#include [<"](format|service|lsp|studio|cli)/' 'src/capi/*'
+  lines_with '^#include [<"](service|lsp|studio|cli|capi)/' 'src/format/*'
+  lines_with '^#include [<"](lsp|studio|cli|capi)/' 'src/service/*'
+  lines_with '^#include [<"](studio|cli|capi)/' 'src/lsp/*'
+  lines_with '^#include [<"](lang|format|service|lsp|cli|capi)/' 'src/studio/*'
+  lines_with '^#include [<"](lang|format|service|lsp|studio)/' 'src/cli/*' |
     without '"(format/format|lsp/server)\.hpp"'
-  lines_with '^#include [<"]format/' 'src/lsp/*' | without '"format/format\.hpp"'
+  lines_with '^#include [<"]format/' 'src/lsp/*' 'src/service/*' |
+    without '"format/format\.hpp"'
 }
 
 # only_in REGEX FOLDER... prints includes of a library that stand outside its folders.
@@ -80,19 +88,19 @@ only_in() {
 
 # What the public headers offer is all that lang, the command and the examples may see.
 check_public_only() {
-  lines_with '^#include [<"]core/' 'src/lang/*' 'src/format/*' 'src/lsp/*' 'src/cli/*' \
-    'src/capi/*' 'examples/*'
+  lines_with '^#include [<"]core/' 'src/lang/*' 'src/format/*' 'src/service/*' 'src/lsp/*' \
+    'src/studio/*' 'src/cli/*' 'src/capi/*' 'examples/*'
   lines_with '^#include [<"](core|lang|cli|capi)/' 'include/*'
   lines_with '^#include <glm/' 'include/*' | without '<glm/vec3.hpp>'
   lines_with '^#include <(fmt|tbb|embree|OpenImageIO|CLI)' 'include/*'
 }
 
-# crt.hpp holds every public header but script.hpp and farm.hpp, which belong to the libraries
-# crt::lang and crt::farm.
+# crt.hpp holds every public header but those that belong to libraries beside crt::core: crt::lang,
+# crt::farm and crt::service.
 check_umbrella() {
   local header
   tracked 'include/crt/*.hpp' | while IFS= read -r header; do
-    case ${header##*/} in crt.hpp | script.hpp | farm.hpp) continue ;; esac
+    case ${header##*/} in crt.hpp | script.hpp | farm.hpp | language_service.hpp) continue ;; esac
     grep -qF "#include <crt/${header##*/}>" include/crt/crt.hpp || echo "$header is not in crt.hpp"
   done
 }
@@ -195,7 +203,10 @@ lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
 lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
   without '^src/(lsp/(server|requests|json_values)|farm/manifest)\.cpp:' |
-  complain "JSON outside src/farm/manifest.cpp and three sources of src/lsp"
+  without '^src/studio/(messages|studio_client)\.cpp:' |
+  complain "JSON outside the sources that have to wait for it"
+lines_with '^#include <boost/' "${code[@]}" | without '^src/studio/web_server\.cpp:' |
+  complain "Boost outside src/studio/web_server.cpp: one source is enough to wait for"
 tracked '*.y' '*.re' | without '^src/lang/' | complain "Bison or re2c outside src/lang"
 check_public_only | complain "Only crt/*.hpp may be seen from here"
 check_umbrella | complain "A public header is missing from crt.hpp"
@@ -203,11 +214,11 @@ tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once'
   complain "No #pragma once"
 lines_with '#include <format>|std::views::|std::ranges::views' "${code[@]}" |
   complain "Not with the compilers that we support"
-lines_with '\bgetenv\b' \
-  'src/core/*' 'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
+lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' \
+  'src/service/*' 'src/lsp/*' |
   complain "The library reads the environment"
-lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' \
-  'src/core/*' 'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
+lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' 'src/core/*' \
+  'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/service/*' 'src/lsp/*' |
   complain "The library prints or ends the process: log to a callback, throw crt::Error"
 lines_with '\b(TODO|FIXME|XXX|HACK)\b' \
   "${code[@]}" "${users[@]}" 'examples/*' '*.cmake' '*CMakeLists.txt' |

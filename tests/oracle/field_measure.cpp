@@ -211,7 +211,7 @@ bool enclose_odd_numbers(const core::CrossingList& found, std::vector<TrueFlip>&
   });
 }
 
-/// Judges what a tier reports of a ray. Returns whether it kept its promises.
+/// Looks at what a tier reports of a ray. Returns whether it kept its promises.
 bool keeps_promises(const core::CrossingList& found, std::vector<TrueFlip>& flips, double box_size,
                     FieldTierRecord& record) {
   if (!take_turns(found)) return false;
@@ -334,7 +334,7 @@ FieldRecord measure_fields(FieldKind kind, std::uint64_t fields, std::uint64_t r
       record.crossings += truth.flips().size();
       // A bound is in units of t.
       const double box_size = field.size / glm::length(ray.direction);
-      const auto judge = [&](const char* tier, FieldTierRecord& of, const auto& ask) {
+      const auto measure = [&](const char* tier, FieldTierRecord& of, const auto& ask) {
         found.clear();
         found.undecided = 0;
         const bool begins_inside = ask();
@@ -343,8 +343,9 @@ FieldRecord measure_fields(FieldKind kind, std::uint64_t fields, std::uint64_t r
         add_failure(fmt::format("{}: field {}, ray {}: {}", name_of(kind), number, i, tier),
                     record);
       };
-      judge("standard", record.standard, [&] { return measured.standard->crossings(ray, found); });
-      judge("exact", record.exact, [&] {
+      measure("standard", record.standard,
+              [&] { return measured.standard->crossings(ray, found); });
+      measure("exact", record.exact, [&] {
         return measured.exact->crossings(
             {.near = ray, .world_origin = ray.origin, .world_direction = ray.direction}, found);
       });

@@ -51,9 +51,11 @@ expect_field libcrt-dev Depends "^$library \(= [0-9.]+\)$"
 expect_field libcrt-dev Recommends libglm-dev libfmt-dev libtbb-dev libembree-dev \
   zlib1g-dev libexpat1-dev
 expect_field crt Depends "$library \(= [0-9.]+\)" 'libembree' 'libtbb12' 'libc6'
+expect_field crt-studio Depends "$library \(= [0-9.]+\)" '(^|, )crt \(= [0-9.]+\)' 'libembree'
 expect_field "$library" Description '^ray tracer .*library'
 expect_field libcrt-dev Description '^ray tracer .*development'
 expect_field crt Description '^ray tracer .*command'
+expect_field crt-studio Description '^ray tracer .*studio'
 dpkg-deb -I "$(package "$library")" shlibs | grep -qE "^libcrt $major $library \(>= " ||
   fail "$library has no shlibs"
 dpkg-deb -I "$(package "$library")" postinst | grep -q ldconfig ||
@@ -63,11 +65,13 @@ lib=\\./usr/$LIBDIR
 doc=\\./usr/share/doc
 expect_files "$library" "$lib/libcrt\\.so\\.$major(\\.[0-9.]+)?" "$lib/crt/crt_image_files\\.so" \
   "$doc/$library/copyright"
-expect_files libcrt-dev '\./usr/include/crt/[a-z_]+\.(h|hpp)' "$lib/libcrt(_core|_lang|)\\.(so|a)" \
+expect_files libcrt-dev '\./usr/include/crt/[a-z_]+\.(h|hpp)' \
+  "$lib/libcrt(_core|_format|_lang|_service|)\\.(so|a)" \
   "$lib/cmake/crt/.*\\.cmake" "$lib/pkgconfig/crt\\.pc" "$doc/crt/.*" "$doc/libcrt-dev/copyright"
 expect_files crt '\./usr/bin/crt' '\./usr/share/man/man1/crt\.1' \
   '\./usr/share/bash-completion/completions/crt' '\./usr/share/zsh/site-functions/_crt' \
   '\./usr/share/fish/vendor_completions\.d/crt\.fish' "$doc/crt/copyright"
+expect_files crt-studio '\./usr/bin/crt-studio' "$doc/crt-studio/copyright"
 
 for deb in *.deb; do dpkg-deb -x "$deb" root; done
 for binary in "root/usr/bin/crt" "root/usr/$LIBDIR/libcrt.so" \

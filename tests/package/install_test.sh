@@ -26,7 +26,7 @@ DESTDIR=$WORK/staged install_to /opt/crt
 diff -r "$moved" "$WORK/staged/opt/crt" || fail "what is installed depends on the prefix"
 
 # The copyright files belong to packages, which are made of components one by one.
-for component in runtime development command; do
+for component in runtime development command studio; do
   install_to "$WORK/component/$component" --component $component
   files_in "$WORK/component/$component"
 done | grep -v '/copyright$' | sort >"$WORK/components.txt"

@@ -1,0 +1,210 @@
+#include "service/completion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "lang/builtins.hpp"
+#include "lang/objects.hpp"
+#include "lang/settings.hpp"
+#include "lang/word_byte.hpp"
+#include "service/completion_items.hpp"
+
+namespace crt::service {
+
+namespace {
+
+using Kind = lang::Grammar::symbol_kind;
+
+/// A CutText is the script up to the word that the cursor is in, with what the front end makes of
+/// it.
+struct CutText {
+  lang::SourceMap sources;
+  lang::SymbolTable symbols;
+  const lang::Source* source = nullptr;
+  lang::TokenList tokens;
+  std::set<std::string, std::less<>> expected;
+
+  CutText(std::string text, int compat, const std::filesystem::path& directory) {
+    source = &sources.add("cut", std::move(text), directory);
+    lang::Reporter unheard(sources, std::numeric_limits<std::size_t>::max());
+    tokens = lang::read_tokens(*source, compat, symbols, unheard);
+    for (std::string& name :
+         lang::parse_partially(*source, lang::PartialEnd::cursor, compat, symbols, unheard)
+             .expected)
+      expected.insert(std::move(name));
+  }
+
+  bool expects(std::string_view name) const { return expected.contains(name); }
+  std::uint32_t end() const { return static_cast<std::uint32_t>(source->text.size()); }
+};
+
+/// Says whether the text ends within a comment or a string, where nothing is completed.
+bool ends_in_text(const CutText& cut) {
+  const auto& [tokens, comments, open] = cut.tokens;
+  if (!comments.empty() && comments.back().end == cut.end()) return true;
+  return !tokens.empty() && tokens.back().kind == Kind::S_STRING &&
+         tokens.back().span.end == cut.end();
+}
+
+/// An OpenObject is the object whose braces the cursor is in.
+struct OpenObject {
+  const lang::ObjectType* type = nullptr;
+  lang::Span name;
+};
+
+std::optional<OpenObject> open_object(const CutText& cut) {
+  const auto& [tokens, comments, open] = cut.tokens;
+  if (open.empty()) return std::nullopt;
+  for (std::size_t i = 1; i < tokens.size(); ++i) {
+    if (tokens[i].span != open.back()) continue;
+    const lang::Token& before = tokens[i - 1];
+    if (before.kind == Kind::S_SETTINGS) return OpenObject{&lang::settings_type(), before.span};
+    if (before.kind != Kind::S_OBJECT_NAME) return std::nullopt;
+    const std::string_view name =
+        std::string_view(cut.source->text)
+            .substr(before.span.begin, before.span.end - before.span.begin);
+    if (const lang::ObjectType* type = lang::find_object_type(name))
+      return OpenObject{type, before.span};
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Collects the attributes that an object has in the whole text, but for the one at the cursor.
+std::set<std::string_view> given_attributes(const Program& program, lang::Span name,
+                                            std::uint32_t byte) {
+  std::set<std::string_view> given;
+  const auto add = [&](const std::vector<lang::AttributeSyntax>& attributes) {
+    for (const lang::AttributeSyntax& attribute : attributes) {
+      const bool at_cursor = attribute.name.span.begin <= byte && byte <= attribute.name.span.end;
+      if (!at_cursor) given.insert(program.symbols().name(attribute.name.symbol));
+    }
+  };
+  for (const lang::Expression& expression : program.script().expressions) {
+    const auto* object = std::get_if<lang::ObjectLiteral>(&expression.node);
+    if (object && object->name.span == name) add(object->attributes);
+  }
+  for (const lang::Statement& statement : program.script().statements.statements) {
+    const auto* settings = std::get_if<lang::SettingsBlock>(&statement.node);
+    if (settings && settings->keyword == name) add(settings->attributes);
+  }
+  return given;
+}
+
+/// Says whether an arrow follows, so that none is to be put in.
+bool arrow_follows(std::string_view text, std::uint32_t byte) {
+  const std::size_t next = text.find_first_not_of(" \t", byte);
+  return next != std::string_view::npos && text.substr(next).starts_with("->");
+}
+
+class Completer {
+ public:
+  Completer(const Program& program, const ScriptOptions& options, const Reference& reference,
+            std::uint32_t byte)
+      : program_(program), options_(options), items_(reference) {
+    const std::string& text = program.main().text;
+    list_.begin = list_.end = byte;
+    while (list_.begin > 0 && lang::is_word_byte(text[list_.begin - 1])) --list_.begin;
+    while (list_.end < text.size() && lang::is_word_byte(text[list_.end])) ++list_.end;
+  }
+
+  CompletionList complete() {
+    const std::string& text = program_.main().text;
+    const CutText cut(text.substr(0, list_.begin), program_.compat(), program_.main().directory);
+    if (ends_in_text(cut)) return list_;
+    // After a number's digits a letter begins nothing.
+    if (list_.begin < list_.end && text[list_.begin] >= '0' && text[list_.begin] <= '9')
+      return list_;
+    const bool unsure = cut.expected.empty() || after_less(cut);
+    const bool attribute_fits =
+        cut.expects("a name") && cut.expects("}") && !cut.expects("a whole number");
+    if (attribute_fits || cut.expected.empty()) add_attributes(cut);
+    const bool in_object = unsure && !list_.items.empty();
+    if (cut.expects("a whole number") || (unsure && !in_object)) add_expressions(cut);
+    for (const std::string& name : cut.expected) {
+      if (!std::all_of(name.begin(), name.end(), lang::is_word_byte)) continue;
+      list_.items.push_back(items_.keyword(name));
+      // Behind a '<' these are modifiers, which are what is mostly wanted there.
+      if (after_less(cut)) list_.items.back().rank = 0;
+    }
+    return std::move(list_);
+  }
+
+ private:
+  /// Says whether the text ends in a '<', which may begin modifiers or compare.
+  static bool after_less(const CutText& cut) {
+    return !cut.tokens.tokens.empty() &&
+           cut.source->text[cut.tokens.tokens.back().span.begin] == '<';
+  }
+
+  void add_attributes(const CutText& cut) {
+    const std::optional<OpenObject> object = open_object(cut);
+    if (!object) return;
+    const std::set<std::string_view> given = given_attributes(program_, object->name, list_.begin);
+    const bool needs_arrow = !arrow_follows(program_.main().text, list_.end);
+    for (const lang::AttributeType& attribute : object->type->attributes) {
+      if (!given.contains(attribute.name))
+        list_.items.push_back(items_.attribute(*object->type, attribute, needs_arrow));
+    }
+  }
+
+  void add_expressions(const CutText& cut) {
+    std::set<std::string, std::less<>> seen;
+    add_names(cut, seen);
+    for (const lang::Builtin& builtin : lang::builtins()) {
+      if (seen.emplace(builtin.name).second) list_.items.push_back(items_.function(builtin));
+    }
+    for (const char* constant : {"pi", "t"}) {
+      if (seen.emplace(constant).second) list_.items.push_back(items_.constant(constant));
+    }
+    for (const lang::ObjectType& type : lang::object_types())
+      list_.items.push_back(items_.object(type));
+  }
+
+  /// Adds the names that are set before the cursor, then those that the macro around the cursor
+  /// finds when it is called.
+  void add_names(const CutText& cut, std::set<std::string, std::less<>>& seen) {
+    const Program before(cut.source->text, program_.main().name, options_);
+    add_names(before, cut.end(), 0, seen);
+    if (const std::optional<lang::Span> macro = macro_around(list_.begin))
+      add_names(program_, macro->begin, 1, seen);
+  }
+
+  void add_names(const Program& program, std::uint32_t place, int rank,
+                 std::set<std::string, std::less<>>& seen) {
+    for (const lang::DeclaredName* name : lang::names_at(program.names(), place)) {
+      if (seen.emplace(program.symbols().name(name->symbol)).second)
+        list_.items.push_back(items_.name(program, *name, rank));
+    }
+  }
+
+  /// Returns the body of the outermost macro around a place.
+  std::optional<lang::Span> macro_around(std::uint32_t byte) const {
+    const auto& scopes = program_.names().scopes;
+    const auto around = std::find_if(scopes.begin() + 1, scopes.end(), [&](const auto& scope) {
+      return scope.is_border && scope.extent.begin < byte && byte < scope.extent.end;
+    });
+    return around == scopes.end() ? std::nullopt : std::optional(around->extent);
+  }
+
+  const Program& program_;
+  const ScriptOptions& options_;
+  CompletionItems items_;
+  CompletionList list_;
+};
+
+}  // namespace
+
+CompletionList complete(const Program& program, std::uint32_t byte, const ScriptOptions& options,
+                        const Reference& reference) {
+  return Completer(program, options, reference, byte).complete();
+}
+
+}  // namespace crt::service

@@ -1,0 +1,51 @@
+// Navigation goes from a name to where it is set, to all its places, and renames it.
+#pragma once
+
+#include <crt/script.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lang/source_map.hpp"
+#include "service/program.hpp"
+
+namespace crt::service {
+
+/// A Place is a piece of one of a program's sources, or the beginning of a file.
+struct Place {
+  std::string file;
+  /// Is null for the beginning of a file.
+  const lang::Source* source = nullptr;
+  lang::Span span;
+};
+
+/// Returns where the name at a byte of the main script is set, or the file that is imported there.
+std::optional<Place> definition_at(const Program& program, std::uint32_t byte);
+
+/// Returns all places of the name at a byte of the main script, in all sources.
+std::vector<Place> places_of(const Program& program, std::uint32_t byte);
+
+/// Returns the span of the name at a byte if it can be renamed.
+std::optional<lang::Span> renamable_at(const Program& program, std::uint32_t byte);
+
+/// Returns the places that get the new name. `byte` may also be in another source, behind its base.
+/// Throws std::invalid_argument, with what is wrong, if
+/// the new name is none, or if with it any name would mean something else.
+std::vector<Place> rename_at(const Program& program, std::uint32_t byte,
+                             const std::string& new_name, const ScriptOptions& options);
+
+/// A DocumentSymbol is a name of the main script with what it is set to.
+struct DocumentSymbol {
+  std::string name;
+  bool is_macro = false;
+  bool is_block = false;
+  lang::Span whole;
+  lang::Span span;
+};
+
+/// Lists what is set at the top level of the main script, and its blocks.
+std::vector<DocumentSymbol> document_symbols(const Program& program);
+
+}  // namespace crt::service

@@ -1,0 +1,281 @@
+#include "studio/messages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <crt/error.hpp>
+#include <crt/query.hpp>
+#include <crt/validate.hpp>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+namespace crt::studio {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::array<const char*, 13> node_kinds = {
+    "settings", "scene", "import", "assignment", "macro", "object", "combination",
+    "placed",   "call",  "name",   "list",       "loop",  "choice"};
+constexpr std::array<const char*, 6> literal_kinds = {"none",   "number", "boolean",
+                                                      "string", "vector", "color"};
+constexpr std::array<const char*, 7> completion_kinds = {
+    "attribute", "object", "variable", "macro", "function", "constant", "keyword"};
+constexpr std::array<const char*, 6> phases = {"script", "preparing", "rendering",
+                                               "done",   "cancelled", "failed"};
+constexpr std::array<const char*, 4> projections = {"pinhole", "spherical", "cylindrical",
+                                                    "orthographic"};
+
+json span_json(const Utf16Places& places, TextSpan span) {
+  return {places.unit_of(span.begin), places.unit_of(span.end)};
+}
+
+json vector_json(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+json attribute_json(const Utf16Places& places, const ScriptAttribute& attribute) {
+  json result = {{"name", attribute.name},
+                 {"nameSpan", span_json(places, attribute.name_span)},
+                 {"span", span_json(places, attribute.value_span)},
+                 {"literal", literal_kinds.at(static_cast<std::size_t>(attribute.literal))}};
+  if (!attribute.numbers.empty()) result["numbers"] = attribute.numbers;
+  if (attribute.literal == LiteralKind::string) result["text"] = attribute.text;
+  if (!attribute.reason.empty()) result["reason"] = attribute.reason;
+  return result;
+}
+
+json node_json(const Utf16Places& places, const ScriptNode& node) {
+  json attributes = json::array();
+  for (const ScriptAttribute& attribute : node.attributes)
+    attributes.push_back(attribute_json(places, attribute));
+  const bool is_root = node.parent == ScriptNode::no_parent;
+  return {{"kind", node_kinds.at(static_cast<std::size_t>(node.kind))},
+          {"name", node.name},
+          {"span", span_json(places, node.span)},
+          {"nameSpan", span_json(places, node.name_span)},
+          {"parent", is_root ? -1 : static_cast<std::int64_t>(node.parent)},
+          {"attributes", std::move(attributes)}};
+}
+
+/// Returns the byte where a line begins, from 1, and a column that counts code points.
+TextSpan span_of(std::string_view text, const SourcePlace& place) {
+  std::size_t begin = 0;
+  for (int line = 1; line < place.line && begin != std::string_view::npos; ++line) {
+    begin = text.find('\n', begin);
+    if (begin != std::string_view::npos) ++begin;
+  }
+  begin = std::min(begin, text.size());
+  const auto step = [&](std::size_t from, int code_points) {
+    for (; code_points > 0 && from < text.size() && text[from] != '\n'; --code_points) {
+      ++from;
+      while (from < text.size() && (static_cast<unsigned char>(text[from]) & 0xc0U) == 0x80U)
+        ++from;
+    }
+    return from;
+  };
+  begin = step(begin, place.column - 1);
+  return {static_cast<std::uint32_t>(begin),
+          static_cast<std::uint32_t>(step(begin, std::max(place.length, 1)))};
+}
+
+json location_json(const Analysis& analysis, const ScriptLocation& location) {
+  const bool is_main = location.file == analysis.revision.name;
+  json result = {{"file", is_main ? "" : location.file}};
+  if (is_main) result["span"] = span_json(analysis.places, location.span);
+  return result;
+}
+
+}  // namespace
+
+json tokens_message(const Analysis& analysis) {
+  json tokens = json::array();
+  for (const ScriptToken& token : analysis.service.tokens()) {
+    tokens.push_back(analysis.places.unit_of(token.span.begin));
+    tokens.push_back(analysis.places.unit_of(token.span.end));
+    tokens.push_back(static_cast<std::uint32_t>(token.kind));
+  }
+  json tree = json::array();
+  for (const ScriptNode& node : analysis.service.tree())
+    tree.push_back(node_json(analysis.places, node));
+  return {{"type", "analysis"},
+          {"revision", analysis.revision.number},
+          {"tokens", std::move(tokens)},
+          {"tree", std::move(tree)}};
+}
+
+json diagnostics_message(const Analysis& analysis) {
+  json list = json::array();
+  for (const Diagnostic& diagnostic : analysis.service.diagnostics()) {
+    const bool is_main = diagnostic.place.file == analysis.revision.name;
+    const TextSpan span = is_main ? span_of(*analysis.revision.text, diagnostic.place) : TextSpan{};
+    std::string message = diagnostic.message;
+    if (!is_main) {
+      message.insert(0, ": ");
+      message.insert(0, std::to_string(diagnostic.place.line));
+      message.insert(0, ":");
+      message.insert(0, diagnostic.place.file);
+    }
+    list.push_back({{"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
+                    {"message", std::move(message)},
+                    {"line", is_main ? diagnostic.place.line : 1},
+                    {"span", span_json(analysis.places, span)}});
+  }
+  return {{"type", "diagnostics"},
+          {"revision", analysis.revision.number},
+          {"diagnostics", std::move(list)}};
+}
+
+json state_message(const RenderState& state) {
+  return {{"type", "state"},
+          {"revision", state.revision},
+          {"phase", phases.at(static_cast<std::size_t>(state.phase))},
+          {"progress", state.progress},
+          {"seconds", state.seconds},
+          {"message", state.message}};
+}
+
+json scene_message(const View& view) {
+  const Camera& camera = view.scene.camera;
+  const Settings& settings = view.scene.settings;
+  std::uint64_t primitives = 0;
+  for (const Entity& entity : view.scene.entities) primitives += entity.primitive_count();
+  return {{"type", "scene"},
+          {"revision", view.revision.number},
+          {"width", settings.width},
+          {"height", settings.height},
+          {"entities", view.scene.entities.size()},
+          {"primitives", primitives},
+          {"lights", view.scene.lights.size()},
+          {"memory", view.prepared.memory().total()},
+          {"warnings", view.prepared.warnings()},
+          {"isOverridden", view.camera_is_overridden},
+          {"camera",
+           {{"position", vector_json(camera.position)},
+            {"pointing", vector_json(camera.pointing)},
+            {"fov", camera.fov},
+            {"roll", camera.roll},
+            {"aperture", camera.aperture},
+            {"focalDistance", camera.focal_distance},
+            {"projection", projections.at(static_cast<std::size_t>(camera.projection))},
+            {"apertureShape", static_cast<int>(camera.aperture_shape)}}}};
+}
+
+json finished_message(const Revision& revision, const Image& image) {
+  const RenderStats& stats = image.stats();
+  return {{"type", "finished"},
+          {"revision", revision.number},
+          {"stats",
+           {{"camera rays", stats.camera_rays},
+            {"shadow rays", stats.shadow_rays},
+            {"reflection rays", stats.reflection_rays},
+            {"refraction rays", stats.refraction_rays},
+            {"intersection tests", stats.intersection_tests},
+            {"exact fallbacks", stats.escalations},
+            {"samples of a pixel (mean)", stats.samples_mean},
+            {"threads", stats.threads},
+            {"seconds of preparing", stats.prepare_seconds},
+            {"seconds of tracing", stats.trace_seconds},
+            {"bytes of memory", stats.memory.total()}}}};
+}
+
+json objects_json() {
+  json objects = json::array();
+  for (const ObjectDescription& object : describe_objects()) {
+    json attributes = json::array();
+    for (const AttributeDescription& attribute : object.attributes)
+      attributes.push_back({{"name", attribute.name},
+                            {"type", attribute.type},
+                            {"required", attribute.required},
+                            {"default", attribute.default_text},
+                            {"about", attribute.documentation}});
+    objects.push_back({{"name", object.name}, {"attributes", std::move(attributes)}});
+  }
+  return objects;
+}
+
+json completion_json(const Analysis& analysis, std::uint32_t unit) {
+  const CompletionList list = analysis.service.complete(analysis.places.byte_of(unit));
+  json items = json::array();
+  for (const Completion& item : list.items)
+    items.push_back({{"kind", completion_kinds.at(static_cast<std::size_t>(item.kind))},
+                     {"label", item.label},
+                     {"detail", item.detail},
+                     {"about", item.documentation},
+                     {"text", item.text},
+                     {"snippet", item.snippet},
+                     {"rank", item.rank}});
+  return {{"span", span_json(analysis.places, {list.begin, list.end})},
+          {"items", std::move(items)}};
+}
+
+json hover_json(const Analysis& analysis, std::uint32_t unit) {
+  const auto hover = analysis.service.hover(analysis.places.byte_of(unit));
+  if (!hover) return nullptr;
+  return {{"markdown", hover->markdown}, {"span", span_json(analysis.places, hover->span)}};
+}
+
+json definition_json(const Analysis& analysis, std::uint32_t unit) {
+  const auto location = analysis.service.definition(analysis.places.byte_of(unit));
+  return location ? location_json(analysis, *location) : json(nullptr);
+}
+
+json places_json(const Analysis& analysis, std::uint32_t unit) {
+  json places = json::array();
+  for (const ScriptLocation& location : analysis.service.places(analysis.places.byte_of(unit)))
+    places.push_back(location_json(analysis, location));
+  return places;
+}
+
+json format_json(const Analysis& analysis) {
+  const FormattedScript formatted = format_script(*analysis.revision.text, analysis.revision.name);
+  return formatted.text ? json(*formatted.text) : json(nullptr);
+}
+
+json pick_json(const View& view, double x, double y) {
+  const Ray ray = camera_ray(view.prepared, x, y);
+  RayQueries queries(view.prepared);
+  const std::optional<Hit> hit = queries.intersect(ray);
+  if (!hit || hit->entity_id >= view.places.size()) return nullptr;
+  const EntityPlace& place = view.places[hit->entity_id];
+  const Utf16Places places(*view.revision.text);
+  return {{"entity", hit->entity_id},
+          {"revision", view.revision.number},
+          {"distance", hit->t},
+          {"position", vector_json(hit->position)},
+          {"normal", vector_json(hit->normal)},
+          {"statement", span_json(places, place.statement)},
+          {"origin", span_json(places, place.origin)}};
+}
+
+Camera camera_of(const json& value) {
+  const auto vector = [&](const char* name) {
+    const json& numbers = value.at(name);
+    return Vec3{numbers.at(0).get<double>(), numbers.at(1).get<double>(),
+                numbers.at(2).get<double>()};
+  };
+  Camera camera;
+  camera.position = vector("position");
+  camera.pointing = vector("pointing");
+  camera.fov = value.at("fov").get<double>();
+  camera.roll = value.at("roll").get<double>();
+  camera.aperture = value.at("aperture").get<double>();
+  camera.focal_distance = value.at("focalDistance").get<double>();
+  const auto projection = value.at("projection").get<std::string>();
+  const auto found = std::find(projections.begin(), projections.end(), projection);
+  if (found == projections.end())
+    throw Error(ErrorCode::invalid_argument, "there is no such projection");
+  camera.projection = static_cast<Projection>(found - projections.begin());
+  const int shape = value.at("apertureShape").get<int>();
+  if (shape < 0 || shape > static_cast<int>(ApertureShape::line))
+    throw Error(ErrorCode::invalid_argument, "there is no such shape of a lens");
+  camera.aperture_shape = static_cast<ApertureShape>(shape);
+  return camera;
+}
+
+std::string text_of(const json& message) {
+  return message.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace crt::studio

@@ -1,0 +1,165 @@
+// The live view shows the pictures as they come, and turns gestures into cameras.
+
+import {dolly, orbit, pan, zoom} from './camera';
+import type {Camera, Frame} from './protocol';
+
+export interface ViewHost {
+  cameraMoved(camera: Camera): void;
+  cameraReset(): void;
+  picked(x: number, y: number, focuses: boolean): void;
+}
+
+const radiansAPixel = 0.01;
+const keyRadians = 0.06;
+const keyShare = 0.05;
+const wheelRate = 0.0015;
+/** A press that moves less than this is a click. */
+const clickPixels = 4;
+
+export class LiveView {
+  readonly element = document.createElement('div');
+  readonly canvas = document.createElement('canvas');
+  /** Counts the pictures that were shown, for tests. */
+  shown = 0;
+  lastKind = '';
+  private readonly stage = new OffscreenCanvas(1, 1);
+  private stageKind = '';
+  private camera: Camera | null = null;
+  private asked: Camera | null = null;
+  private readonly pointers = new Map<number, {x: number; y: number}>();
+  private moved = 0;
+
+  constructor(private readonly host: ViewHost) {
+    this.element.className = 'live';
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute('role', 'img');
+    this.canvas.setAttribute('aria-label',
+      'Live view: drag or arrow keys turn, shift moves, wheel or plus and minus go nearer');
+    this.element.append(this.canvas);
+    new ResizeObserver(() => this.fit()).observe(this.element);
+    const canvas = this.canvas;
+    canvas.addEventListener('pointerdown', (event) => this.press(event));
+    canvas.addEventListener('pointermove', (event) => this.drag(event));
+    canvas.addEventListener('pointerup', (event) => this.release(event));
+    canvas.addEventListener('pointercancel', (event) => this.pointers.delete(event.pointerId));
+    canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+    canvas.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
+    canvas.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  setCamera(camera: Camera): void {
+    if (this.asked === null) this.camera = camera;
+  }
+
+  show(frame: Frame): void {
+    const {canvas, stage} = this;
+    if (canvas.width !== frame.fullWidth || canvas.height !== frame.fullHeight) {
+      canvas.width = frame.fullWidth;
+      canvas.height = frame.fullHeight;
+      this.fit();
+    }
+    if (stage.width !== frame.width || stage.height !== frame.height ||
+        this.stageKind !== frame.kind) {
+      stage.width = frame.width;
+      stage.height = frame.height;
+      this.stageKind = frame.kind;
+    }
+    const target = stage.getContext('2d')!;
+    if (frame.rows > 0)
+      target.putImageData(new ImageData(frame.pixels, frame.width, frame.rows), 0, frame.row);
+    if (!frame.isLast) return;
+    const context = canvas.getContext('2d')!;
+    if (frame.kind !== 'progress') context.clearRect(0, 0, canvas.width, canvas.height);
+    context.imageSmoothingEnabled = frame.kind === 'draft';
+    context.drawImage(stage, 0, 0, canvas.width, canvas.height);
+    this.shown += 1;
+    this.lastKind = frame.kind;
+  }
+
+  private fit(): void {
+    const {clientWidth, clientHeight} = this.element;
+    const scale = Math.min(clientWidth / this.canvas.width, clientHeight / this.canvas.height);
+    this.canvas.style.width = `${Math.max(1, this.canvas.width * scale)}px`;
+    this.canvas.style.height = `${Math.max(1, this.canvas.height * scale)}px`;
+  }
+
+  /** Asks for pictures of a camera, the newest once a frame of the screen. */
+  private move(camera: Camera): void {
+    this.camera = camera;
+    const isFirst = this.asked === null;
+    this.asked = camera;
+    if (!isFirst) return;
+    requestAnimationFrame(() => {
+      const newest = this.asked!;
+      this.asked = null;
+      this.host.cameraMoved(newest);
+    });
+  }
+
+  private press(event: PointerEvent): void {
+    this.canvas.focus();
+    this.canvas.setPointerCapture(event.pointerId);
+    this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    if (this.pointers.size === 1) this.moved = 0;
+  }
+
+  private drag(event: PointerEvent): void {
+    const before = this.pointers.get(event.pointerId);
+    if (!before || !this.camera) return;
+    const dx = event.clientX - before.x;
+    const dy = event.clientY - before.y;
+    const others = [...this.pointers].filter(([id]) => id !== event.pointerId);
+    this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    this.moved += Math.abs(dx) + Math.abs(dy);
+    if (this.moved < clickPixels) return;
+    const height = this.canvas.clientHeight;
+    const other = others[0]?.[1];
+    if (other) {  // two fingers: pinch, and move by half of what each moves
+      const distance = (x: number, y: number) => Math.hypot(x - other.x, y - other.y);
+      const factor = distance(before.x, before.y) / Math.max(1, distance(event.clientX, event.clientY));
+      this.move(pan(dolly(this.camera, factor), -dx / height / 2, dy / height / 2));
+    } else if (event.shiftKey || (event.buttons & 6) !== 0) {
+      this.move(pan(this.camera, -dx / height, dy / height));
+    } else {
+      this.move(orbit(this.camera, -dx * radiansAPixel, dy * radiansAPixel));
+    }
+  }
+
+  private release(event: PointerEvent): void {
+    const wasDown = this.pointers.delete(event.pointerId);
+    if (!wasDown || this.moved >= clickPixels || event.button !== 0) return;
+    const box = this.canvas.getBoundingClientRect();
+    this.host.picked((event.clientX - box.left) / box.width * this.canvas.width,
+                     (event.clientY - box.top) / box.height * this.canvas.height, event.altKey);
+  }
+
+  private wheel(event: WheelEvent): void {
+    if (!this.camera) return;
+    event.preventDefault();
+    const factor = Math.exp(event.deltaY * wheelRate);
+    this.move(event.altKey ? zoom(this.camera, factor) : dolly(this.camera, factor));
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (!this.camera || event.ctrlKey || event.metaKey) return;
+    const directions: Record<string, [number, number]> = {
+      ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+    const direction = directions[event.key];
+    if (direction) {
+      const [x, y] = direction;
+      this.move(event.shiftKey ? pan(this.camera, x * keyShare, y * keyShare)
+                               : orbit(this.camera, x * keyRadians, y * keyRadians));
+    } else if (event.key === '+' || event.key === '=') {
+      this.move(dolly(this.camera, 0.9));
+    } else if (event.key === '-') {
+      this.move(dolly(this.camera, 1 / 0.9));
+    } else if (event.key === '[' || event.key === ']') {
+      this.move(zoom(this.camera, event.key === '[' ? 0.95 : 1 / 0.95));
+    } else if (event.key === 'Home') {
+      this.host.cameraReset();
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+}

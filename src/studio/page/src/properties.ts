@@ -1,0 +1,229 @@
+// The property sheet of an object. What it changes is the text of the script, where a value stands
+// there as it is. What is computed can be seen and not changed, and says why.
+
+import {numberText, stringText, vectorText} from './numbers';
+import type {Attribute, ObjectDescription, TreeNode} from './protocol';
+import {markdown} from './markdown';
+
+export interface SheetHost {
+  /** Is called before the edits of a gesture. */
+  begin(): void;
+  edit(changes: {from: number; to: number; insert: string}[]): void;
+  select(span: [number, number]): void;
+  textOf(span: [number, number]): string;
+}
+
+/** A drag of a pixel changes a number by such a share of it. */
+const dragShare = 0.01;
+
+export class PropertySheet {
+  readonly element = document.createElement('div');
+  private objects = new Map<string, ObjectDescription>();
+  private node: TreeNode | null = null;
+  /** While a gesture or a field has the attention, the sheet is not made anew. */
+  private isBusy = false;
+
+  constructor(private readonly host: SheetHost) {
+    this.element.className = 'sheet';
+    this.show(null);
+  }
+
+  describe(objects: ObjectDescription[]): void {
+    this.objects = new Map(objects.map((object) => [object.name, object]));
+  }
+
+  show(node: TreeNode | null): void {
+    const isSame = node !== null && this.node !== null && node.name === this.node.name &&
+      node.span[0] === this.node.span[0] &&
+      node.attributes.length === this.node.attributes.length;
+    this.node = node;
+    const focused = this.element.contains(document.activeElement);
+    if (isSame && (this.isBusy || focused)) return;
+    this.draw();
+  }
+
+  private draw(): void {
+    const node = this.node;
+    if (!node) {
+      const hint = document.createElement('p');
+      hint.className = 'hint';
+      hint.textContent = 'Click something in the picture, in the tree or in the script.';
+      this.element.replaceChildren(hint);
+      return;
+    }
+    const heading = document.createElement('h2');
+    heading.textContent = node.name;
+    const rows: HTMLElement[] = [heading];
+    const given = new Map(node.attributes.map((attribute) => [attribute.name, attribute]));
+    for (const description of this.objects.get(node.name)?.attributes ?? []) {
+      const attribute = given.get(description.name);
+      const row = document.createElement('div');
+      row.className = 'property';
+      const label = document.createElement('label');
+      label.textContent = description.name;
+      label.title = `${description.type}${description.required ? ', required' : ''}`;
+      row.append(label);
+      if (attribute) {
+        row.append(...this.editors(attribute, label));
+      } else {
+        row.classList.add('absent');
+        row.append(this.absent(node, description.name, description.default));
+      }
+      if (description.about !== '') {
+        const about = document.createElement('details');
+        const summary = document.createElement('summary');
+        summary.textContent = '?';
+        summary.setAttribute('aria-label', `About ${description.name}`);
+        about.append(summary, markdown(description.about));
+        row.append(about);
+      }
+      rows.push(row);
+    }
+    this.element.replaceChildren(...rows);
+  }
+
+  /** Finds the attribute as the newest tree has it: its place moves with the text. */
+  private current(name: string): Attribute | undefined {
+    return this.node?.attributes.find((attribute) => attribute.name === name);
+  }
+
+  private write(name: string, text: string): void {
+    const attribute = this.current(name);
+    if (!attribute || attribute.literal === 'none') return;
+    this.host.edit([{from: attribute.span[0], to: attribute.span[1], insert: text}]);
+    // Until the next tree comes, the places are those that this edit makes.
+    const growth = text.length - (attribute.span[1] - attribute.span[0]);
+    attribute.span = [attribute.span[0], attribute.span[1] + growth];
+    this.node!.span = [this.node!.span[0], this.node!.span[1] + growth];
+    for (const other of this.node!.attributes) {
+      if (other.span[0] > attribute.span[0])
+        other.span = [other.span[0] + growth, other.span[1] + growth];
+    }
+  }
+
+  private editors(attribute: Attribute, label: HTMLLabelElement): HTMLElement[] {
+    const numbers = attribute.numbers ?? [];
+    switch (attribute.literal) {
+      case 'number': {
+        const field = this.numberField(attribute.name, numbers[0]!, (value) =>
+          this.write(attribute.name, numberText(value)));
+        this.makeDraggable(label, field);
+        return [field];
+      }
+      case 'boolean': {
+        const box = this.input('checkbox', attribute.name);
+        box.checked = numbers[0] === 1;
+        box.addEventListener('change', () =>
+          this.write(attribute.name, box.checked ? 'true' : 'false'));
+        return [box];
+      }
+      case 'string': {
+        const field = this.input('text', attribute.name);
+        field.value = attribute.text ?? '';
+        field.addEventListener('input', () =>
+          this.write(attribute.name, stringText(field.value)));
+        return [field];
+      }
+      case 'vector':
+      case 'color':
+        return this.vectorFields(attribute, numbers);
+      case 'none': {
+        const value = document.createElement('button');
+        value.className = 'computed';
+        value.textContent = this.host.textOf(attribute.span).slice(0, 60);
+        value.title = `Not changed here: it is ${attribute.reason ?? 'computed'}`;
+        value.addEventListener('click', () => this.host.select(attribute.span));
+        return [value];
+      }
+    }
+  }
+
+  private vectorFields(attribute: Attribute, numbers: number[]): HTMLElement[] {
+    const values = [...numbers];
+    const isColor = attribute.literal === 'color';
+    const constructor = isColor ? (values.length === 4 ? 'rgba' : 'rgb') : 'vec3';
+    const write = () => this.write(attribute.name, vectorText(constructor, values));
+    const names = isColor ? ['red', 'green', 'blue', 'alpha'] : ['x', 'y', 'z'];
+    const fields = values.map((value, index) =>
+      this.numberField(`${attribute.name} ${names[index]}`, value, (changed) => {
+        values[index] = changed;
+        write();
+      }));
+    if (!isColor) return fields;
+    const picker = this.input('color', `${attribute.name} as a colour`);
+    const byte = (value: number) => Math.round(255 * Math.max(0, Math.min(1, value)));
+    picker.value = '#' + values.slice(0, 3).map((v) => byte(v).toString(16).padStart(2, '0')).join('');
+    picker.addEventListener('input', () => {
+      for (let i = 0; i < 3; ++i) {
+        values[i] = Number((parseInt(picker.value.slice(1 + 2 * i, 3 + 2 * i), 16) / 255).toFixed(3));
+        fields[i]!.value = numberText(values[i]!);
+      }
+      write();
+    });
+    return [picker, ...fields];
+  }
+
+  private input(type: string, label: string): HTMLInputElement {
+    const field = document.createElement('input');
+    field.addEventListener('focus', () => this.host.begin());
+    field.type = type;
+    field.setAttribute('aria-label', label);
+    return field;
+  }
+
+  private numberField(label: string, value: number, take: (value: number) => void) {
+    const field = this.input('number', label);
+    field.step = 'any';
+    field.value = numberText(value);
+    field.addEventListener('input', () => {
+      if (field.value !== '' && Number.isFinite(field.valueAsNumber)) take(field.valueAsNumber);
+    });
+    return field;
+  }
+
+  /** Lets the name of a number be dragged to change it. */
+  private makeDraggable(label: HTMLLabelElement, field: HTMLInputElement): void {
+    label.classList.add('draggable');
+    label.addEventListener('pointerdown', (event) => {
+      event.preventDefault();
+      label.setPointerCapture(event.pointerId);
+      this.isBusy = true;
+      this.host.begin();
+      const start = field.valueAsNumber;
+      const isWhole = Number.isInteger(start) && Math.abs(start) >= 10;
+      const rate = Math.max(Math.abs(start), 1e-3) * dragShare;
+      const move = (moved: PointerEvent) => {
+        const value = start + (moved.clientX - event.clientX) * rate;
+        field.value = numberText(isWhole ? Math.round(value) : Number(value.toPrecision(4)));
+        field.dispatchEvent(new Event('input'));
+      };
+      label.addEventListener('pointermove', move);
+      label.addEventListener('lostpointercapture', () => {
+        label.removeEventListener('pointermove', move);
+        this.isBusy = false;
+      }, {once: true});
+    });
+  }
+
+  private absent(node: TreeNode, name: string, defaultText: string): HTMLElement {
+    const canBeAdded = /^(-?[\d.]+|true|false|(vec3|rgba?)\([-\d., ]+\)|"[^"]*")$/.test(defaultText);
+    if (!canBeAdded) {
+      const value = document.createElement('span');
+      value.className = 'default';
+      value.textContent = defaultText === '' ? 'not given' : defaultText;
+      return value;
+    }
+    const button = document.createElement('button');
+    button.className = 'default';
+    button.textContent = `${defaultText} +`;
+    button.title = `Write ${name} into the script`;
+    button.addEventListener('click', () => {
+      const last = node.attributes.at(-1);
+      const text = `${name} -> ${defaultText}`;
+      const place = last ? last.span[1] : node.span[1] - 1;
+      const isOnLines = this.host.textOf(node.span).includes('\n');
+      this.host.edit([{from: place, to: place, insert: (isOnLines ? '\n    ' : ' ') + text}]);
+    });
+    return button;
+  }
+}

@@ -1,0 +1,159 @@
+// The messages between the page and the server, as docs/studio.md has them.
+
+export type Span = [number, number];
+export type Vector = [number, number, number];
+
+export interface Attribute {
+  name: string;
+  nameSpan: Span;
+  span: Span;
+  literal: 'none' | 'number' | 'boolean' | 'string' | 'vector' | 'color';
+  numbers?: number[];
+  text?: string;
+  reason?: string;
+}
+
+export interface TreeNode {
+  kind: string;
+  name: string;
+  span: Span;
+  nameSpan: Span;
+  parent: number;
+  attributes: Attribute[];
+}
+
+export interface AttributeDescription {
+  name: string;
+  type: string;
+  required: boolean;
+  default: string;
+  about: string;
+}
+
+export interface ObjectDescription {
+  name: string;
+  attributes: AttributeDescription[];
+}
+
+export interface Camera {
+  position: Vector;
+  pointing: Vector;
+  fov: number;
+  roll: number;
+  aperture: number;
+  focalDistance: number;
+  projection: string;
+  apertureShape: number;
+}
+
+export interface Diagnostic {
+  severity: 'error' | 'warning';
+  message: string;
+  line: number;
+  span: Span;
+}
+
+export interface CompletionItem {
+  kind: string;
+  label: string;
+  detail: string;
+  about: string;
+  text: string;
+  snippet: string;
+  rank: number;
+}
+
+export interface Pick {
+  entity: number;
+  revision: number;
+  distance: number;
+  position: Vector;
+  normal: Vector;
+  statement: Span;
+  origin: Span;
+}
+
+export interface Scene {
+  type: 'scene';
+  revision: number;
+  width: number;
+  height: number;
+  entities: number;
+  primitives: number;
+  lights: number;
+  memory: number;
+  warnings: string[];
+  camera: Camera;
+  isOverridden: boolean;
+}
+
+export interface State {
+  type: 'state';
+  revision: number;
+  phase: 'script' | 'preparing' | 'rendering' | 'done' | 'cancelled' | 'failed';
+  progress: number;
+  seconds: number;
+  message: string;
+}
+
+export type Message =
+  | {type: 'hello'; version: string; folder: string; script: string; scripts: string[];
+     objects: ObjectDescription[]}
+  | {type: 'opened'; script: string; text: string}
+  | {type: 'analysis'; revision: number; tokens: number[]; tree: TreeNode[]}
+  | {type: 'diagnostics'; revision: number; diagnostics: Diagnostic[]}
+  | {type: 'answer'; id: number; revision?: number; result: unknown}
+  | {type: 'finished'; revision: number; stats: Record<string, number>}
+  | {type: 'print'; line: string}
+  | {type: 'changed'; script: string; text: string}
+  | {type: 'saved'; script: string; scripts: string[]}
+  | {type: 'conflict'; script: string; message: string}
+  | {type: 'error'; message: string; id?: number; about?: string}
+  | Scene
+  | State;
+
+/** A rectangle of a picture, with the whole that it belongs to. */
+export interface Frame {
+  kind: 'draft' | 'progress' | 'final';
+  isLast: boolean;
+  picture: number;
+  revision: number;
+  fullWidth: number;
+  fullHeight: number;
+  width: number;
+  height: number;
+  row: number;
+  rows: number;
+  pixels: Uint8ClampedArray<ArrayBuffer>;
+}
+
+const kinds = ['draft', 'progress', 'final'] as const;
+const headerBytes = 40;
+const frameMagic = 0x46545243;
+const fileMagic = 0x49545243;
+
+/** Reads a binary message: rows of a picture, or a picture as a file. */
+export function readBinary(data: ArrayBuffer): Frame | {format: string; file: ArrayBuffer} | null {
+  const view = new DataView(data);
+  if (data.byteLength < 8) return null;
+  const magic = view.getUint32(0, true);
+  if (magic === fileMagic) {
+    const format = String.fromCharCode(...new Uint8Array(data, 4, 3));
+    return {format, file: data.slice(8)};
+  }
+  if (magic !== frameMagic || data.byteLength < headerBytes) return null;
+  const at = (index: number) => view.getUint32(4 * index, true);
+  return {
+    kind: kinds[at(1) & 0xff] ?? 'draft',
+    isLast: (at(1) & 0x100) !== 0,
+    picture: at(2),
+    revision: at(3),
+    fullWidth: at(4),
+    fullHeight: at(5),
+    width: at(6),
+    height: at(7),
+    row: at(8),
+    rows: at(9),
+    pixels: new Uint8ClampedArray(data, headerBytes),
+  };
+}

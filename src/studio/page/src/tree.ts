@@ -1,0 +1,115 @@
+// The tree of the script. What is selected here is selected in the editor.
+
+import type {TreeNode} from './protocol';
+
+const signs: Record<string, string> = {
+  settings: '⚙', scene: '▣', import: '⇣', assignment: '=', macro: 'ƒ', object: '●',
+  combination: '◐', placed: '⤢', call: 'ƒ', name: '→', list: '≡', loop: '↻', choice: '?'};
+
+const combinations: Record<string, string> = {
+  '+': 'union', '-': 'difference', '^': 'intersection'};
+
+export function titleOf(node: TreeNode): string {
+  if (node.kind === 'combination') return combinations[node.name] ?? 'combination';
+  if (node.kind === 'placed') return `placed: ${node.name}`;
+  return node.name;
+}
+
+export class Tree {
+  readonly element = document.createElement('div');
+  private nodes: TreeNode[] = [];
+  private rows: HTMLElement[] = [];
+  private readonly closed = new Set<string>();
+  private selected = -1;
+
+  constructor(private readonly choose: (index: number) => void) {
+    this.element.className = 'tree';
+    this.element.setAttribute('role', 'tree');
+    this.element.setAttribute('aria-label', 'Scene');
+    this.element.tabIndex = 0;
+    this.element.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  set(nodes: TreeNode[]): void {
+    this.nodes = nodes;
+    this.draw();
+  }
+
+  select(index: number): void {
+    this.rows[this.selected]?.removeAttribute('aria-selected');
+    this.selected = index;
+    const row = this.rows[index];
+    row?.setAttribute('aria-selected', 'true');
+    row?.scrollIntoView({block: 'nearest'});
+  }
+
+  private path(index: number): string {
+    const parts = [];
+    for (let i = index; i >= 0; i = this.nodes[i]!.parent) parts.push(this.nodes[i]!.name);
+    return parts.join('/');
+  }
+
+  private draw(): void {
+    this.rows = [];
+    const depths: number[] = [];
+    const hidden: boolean[] = [];
+    const parents = new Set(this.nodes.map((node) => node.parent));
+    const content = document.createDocumentFragment();
+    this.nodes.forEach((node, index) => {
+      const depth = node.parent < 0 ? 0 : depths[node.parent]! + 1;
+      const isClosed = this.closed.has(this.path(index));
+      depths.push(depth);
+      const isHidden = node.parent >= 0 && hidden[node.parent]!;
+      hidden.push(isHidden || isClosed);
+      const row = document.createElement('div');
+      row.className = `row kind-${node.kind}`;
+      row.setAttribute('role', 'treeitem');
+      row.setAttribute('aria-level', String(depth + 1));
+      row.style.paddingLeft = `${0.5 + 0.9 * depth}rem`;
+      const arrow = document.createElement('span');
+      arrow.className = 'arrow';
+      if (parents.has(index)) {
+        arrow.textContent = isClosed ? '▸' : '▾';
+        row.setAttribute('aria-expanded', String(!isClosed));
+        arrow.addEventListener('click', (event) => {
+          event.stopPropagation();
+          this.toggle(index);
+        });
+      }
+      const sign = document.createElement('span');
+      sign.className = 'sign';
+      sign.setAttribute('aria-hidden', 'true');
+      sign.textContent = signs[node.kind] ?? '';
+      row.append(arrow, sign, titleOf(node));
+      row.hidden = isHidden;
+      row.addEventListener('click', () => this.choose(index));
+      this.rows.push(row);
+      content.append(row);
+    });
+    this.element.replaceChildren(content);
+    this.select(Math.min(this.selected, this.rows.length - 1));
+  }
+
+  private toggle(index: number): void {
+    const path = this.path(index);
+    if (!this.closed.delete(path)) this.closed.add(path);
+    this.draw();
+  }
+
+  private key(event: KeyboardEvent): void {
+    const step = event.key === 'ArrowDown' ? 1 : event.key === 'ArrowUp' ? -1 : 0;
+    const node = this.nodes[this.selected];
+    if (step !== 0) {
+      let next = this.selected + step;
+      while (this.rows[next]?.hidden) next += step;
+      if (this.rows[next]) this.choose(next);
+    } else if (node && (event.key === 'ArrowLeft' || event.key === 'ArrowRight')) {
+      const isClosed = this.closed.has(this.path(this.selected));
+      if (isClosed === (event.key === 'ArrowRight')) this.toggle(this.selected);
+      else if (event.key === 'ArrowLeft' && node.parent >= 0) this.choose(node.parent);
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+}

@@ -1,0 +1,76 @@
+// Starts the studio and a browser for the tests.
+import {spawn} from 'node:child_process';
+import {cpSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {dirname, join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+import {chromium} from 'playwright-core';
+
+const here = dirname(fileURLToPath(import.meta.url));
+export const project = join(here, '../../../..');
+export const program = process.env.CRT_STUDIO ?? join(project, 'build/release/bin/crt-studio');
+export const command = process.env.CRT_COMMAND ?? join(project, 'build/release/bin/crt');
+
+/** Starts one browser for all tests of a file. */
+export function startBrowser() {
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--no-proxy-server', '--disable-gpu'],
+  });
+}
+
+/** Makes a folder with scripts, which goes at the end. */
+export function folderWith(scripts) {
+  const folder = mkdtempSync(join(tmpdir(), 'crt-studio-'));
+  for (const [name, text] of Object.entries(scripts)) writeFileSync(join(folder, name), text);
+  return {folder, remove: () => rmSync(folder, {recursive: true, force: true})};
+}
+
+export function copyScene(folder, name) {
+  cpSync(join(project, 'examples/scenes', name), join(folder, name));
+}
+
+/** Starts the server. `end` interrupts it and gives its exit code. */
+export async function startServer(folder, script = '', port = 0) {
+  const child = spawn(program, [folder, script, String(port), '0'],
+                      {stdio: ['ignore', 'pipe', 'inherit']});
+  const ended = new Promise((resolve) => child.on('exit', (code, signal) => resolve(code ?? signal)));
+  const url = await new Promise((resolve, reject) => {
+    let output = '';
+    child.stdout.on('data', (data) => {
+      output += data;
+      const found = /http:\S+/.exec(output);
+      if (found) resolve(found[0]);
+    });
+    child.on('exit', () => reject(new Error('the server ended')));
+  });
+  return {
+    url, child,
+    end: (signal = 'SIGINT') => {
+      child.kill(signal);
+      return ended;
+    },
+  };
+}
+
+/** Opens the page and waits for its first whole picture. */
+export async function openPage(browser, url, size = {width: 1280, height: 720}) {
+  const context = await browser.newContext({viewport: size});
+  const page = await context.newPage();
+  page.problems = [];
+  page.on('console', (message) => {
+    // The tests read the picture, which the page never does.
+    const isOfTest = message.text().startsWith('Canvas2D: Multiple readback');
+    if (['error', 'warning'].includes(message.type()) && !isOfTest)
+      page.problems.push(message.text());
+  });
+  page.on('pageerror', (error) => page.problems.push(String(error)));
+  await page.goto(url);
+  return page;
+}
+
+export const whole = (page) => page.waitForFunction(() => {
+  const {studio} = window;
+  return studio.view.lastKind === 'final' && studio.queue.title.textContent === 'Done' &&
+    studio.timing.firstPicture > 0;
+}, null, {timeout: 60000});

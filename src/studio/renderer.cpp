@@ -1,0 +1,318 @@
+#include "studio/renderer.hpp"
+
+#include <algorithm>
+#include <crt/error.hpp>
+#include <crt/job.hpp>
+#include <new>
+#include <utility>
+
+namespace crt::studio {
+
+namespace {
+
+using std::chrono::milliseconds;
+using Phase = RenderState::Phase;
+
+/// A draft has a pixel for so many of the picture, across and down.
+constexpr int coarsest_step = 16;
+/// The first draft may take about so long.
+constexpr double first_draft_seconds = 0.03;
+/// A picture in progress is sent in this interval.
+constexpr milliseconds look_interval{80};
+/// A job is asked in this interval whether it has ended.
+constexpr milliseconds end_interval{8};
+/// So many pictures may be on their way to the page.
+constexpr std::uint32_t most_on_their_way = 2;
+/// A script prints so many lines at most.
+constexpr int most_lines = 1000;
+
+/// Returns a scene with the settings of a draft.
+Scene draft_of(Scene scene, int step) {
+  Settings& settings = scene.settings;
+  settings.width = std::max(1, settings.width / step);
+  settings.height = std::max(1, settings.height / step);
+  settings.supersampling = settings.dof_samples = 1;
+  settings.target_error = settings.time_budget = 0;
+  scene.camera.aperture = 0;
+  return scene;
+}
+
+/// Says whether a scene takes one sample a pixel, as the finest draft does.
+bool is_its_own_draft(const Scene& scene) {
+  const Settings& settings = scene.settings;
+  return settings.supersampling == 1 && settings.target_error == 0 && settings.time_budget == 0 &&
+         (settings.dof_samples == 1 || scene.camera.aperture == 0);
+}
+
+bool are_equal(const Camera& a, const Camera& b) {
+  return a.position == b.position && a.pointing == b.pointing && a.fov == b.fov &&
+         a.roll == b.roll && a.projection == b.projection && a.aperture == b.aperture &&
+         a.focal_distance == b.focal_distance && a.aperture_shape == b.aperture_shape;
+}
+
+/// Returns the entities under numbers that say their places, for hits to report.
+std::vector<Entity> numbered(const std::vector<Entity>& entities) {
+  std::vector<Entity> result;
+  result.reserve(entities.size());
+  for (const Entity& entity : entities)
+    result.push_back(entity.with_id(static_cast<std::uint32_t>(result.size())));
+  return result;
+}
+
+}  // namespace
+
+Renderer::Renderer(RenderEvents events, int threads)
+    : events_(std::move(events)), threads_(threads), thread_([this] { work(); }) {}
+
+Renderer::~Renderer() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ended_ = true;
+    ++changes_;
+    ++script_changes_;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void Renderer::set_script(Revision revision) {
+  const std::lock_guard lock(mutex_);
+  asked_script_ = std::move(revision);
+  is_cancelled_ = false;
+  ++changes_;
+  ++script_changes_;
+  changed_.notify_all();
+}
+
+void Renderer::set_camera(const std::optional<Camera>& camera) {
+  const std::lock_guard lock(mutex_);
+  asked_camera_ = camera;
+  is_cancelled_ = false;
+  ++changes_;
+  changed_.notify_all();
+}
+
+void Renderer::acknowledge(std::uint32_t picture) {
+  const std::lock_guard lock(mutex_);
+  acknowledged_ = std::max(acknowledged_, picture);
+  changed_.notify_all();
+}
+
+void Renderer::cancel() {
+  const std::lock_guard lock(mutex_);
+  is_cancelled_ = true;
+  changed_.notify_all();
+}
+
+void Renderer::restart() {
+  const std::lock_guard lock(mutex_);
+  is_cancelled_ = false;
+  ++changes_;
+  changed_.notify_all();
+}
+
+std::shared_ptr<const View> Renderer::view() const {
+  const std::lock_guard lock(mutex_);
+  return view_;
+}
+
+std::shared_ptr<const Image> Renderer::picture() const {
+  const std::lock_guard lock(mutex_);
+  return picture_;
+}
+
+void Renderer::work() {
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return is_ended_ || changes_ != change_; });
+      if (is_ended_) return;
+    }
+    start_ = Clock::now();
+    try {
+      render_newest();
+    } catch (const Error& error) {
+      const bool is_cancelled = error.code() == ErrorCode::cancelled;
+      say(is_cancelled ? Phase::cancelled : Phase::failed, 0, is_cancelled ? "" : error.what());
+    } catch (const std::bad_alloc&) {
+      say(Phase::failed, 0, "there is not enough memory");
+    }
+  }
+}
+
+void Renderer::render_newest() {
+  bool script_is_new = false;
+  {
+    const std::lock_guard lock(mutex_);
+    script_is_new = script_changes_ != script_change_;
+    script_change_ = script_changes_;
+    change_ = changes_;
+    revision_ = asked_script_;
+    camera_ = asked_camera_;
+  }
+  if (!revision_.text) return;
+  if (script_is_new) {
+    scene_.reset();
+    prepared_.reset();
+    if (!run_script()) return;
+  }
+  if (!scene_ || !prepare_scene()) return;
+  draw_drafts();
+  render_whole();
+}
+
+bool Renderer::run_script() {
+  say(Phase::script);
+  int lines = 0;
+  ScriptOptions options;
+  options.go_on = [this] { return !script_is_old(); };
+  options.print = [&](std::string_view line) {
+    if (++lines < most_lines) events_.print(std::string(line));
+    if (lines == most_lines) events_.print("...");
+  };
+  ScriptResult result = crt::run_script(*revision_.text, revision_.name, options);
+  if (script_is_old()) return false;
+  if (!result.scene) {
+    say(Phase::failed, 0, "the script has errors");
+    return false;
+  }
+  // Whoever changes the script's camera wants to see that one.
+  if (script_camera_ && !are_equal(*script_camera_, result.scene->camera)) {
+    const std::lock_guard lock(mutex_);
+    if (changes_ == change_) asked_camera_.reset();
+    camera_.reset();
+  }
+  script_camera_ = result.scene->camera;
+  scene_ = std::move(result.scene);
+  scene_->entities = numbered(scene_->entities);
+  places_ = std::move(result.entity_places);
+  return true;
+}
+
+bool Renderer::prepare_scene() {
+  if (!prepared_) say(Phase::preparing);
+  Scene scene = *scene_;
+  if (camera_) scene.camera = *camera_;
+  PrepareOptions options;
+  options.earlier = prepared_ ? &*prepared_ : nullptr;
+  options.go_on = [this] { return !script_is_old(); };
+  prepared_ = prepare(scene, options);
+  auto view = std::make_shared<const View>(
+      View{revision_, std::move(scene), *prepared_, places_, camera_.has_value()});
+  {
+    const std::lock_guard lock(mutex_);
+    view_ = view;
+  }
+  events_.scene(*view);
+  return true;
+}
+
+int Renderer::first_step() const {
+  const Settings& settings = scene_->settings;
+  const double pixels = static_cast<double>(settings.width) * settings.height;
+  if (pixels_a_second_ == 0) return std::max(1, std::min(settings.width, settings.height) / 64);
+  int step = 1;
+  while (step < coarsest_step && pixels / (step * step) > first_draft_seconds * pixels_a_second_)
+    step *= 2;
+  return step;
+}
+
+/// The first draft is always drawn, so that a camera that never rests is seen moving.
+void Renderer::draw_drafts() {
+  say(Phase::rendering);
+  const int first = std::min(first_step(), coarsest_step);
+  const int last = is_its_own_draft(view_->scene) ? 2 : 1;
+  for (int step = first; step >= last && (step == first || !is_old()); step /= 2)
+    draw_draft(step, step != first);
+}
+
+void Renderer::draw_draft(int step, bool may_be_cancelled) {
+  const Scene draft = draft_of(view_->scene, step);
+  RenderOptions options;
+  options.threads = threads_;
+  options.progress = [&](double) { return may_be_cancelled ? !is_old() : !script_is_old(); };
+  const Clock::time_point begin = Clock::now();
+  const Image image = render(prepare(draft, *prepared_), options);
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  pixels_a_second_ = static_cast<double>(image.width()) * image.height() / std::max(seconds, 1e-6);
+  {
+    // Pictures do not queue: the page must have taken those before.
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock,
+                  [&] { return has_taken() || is_ended_ || script_changes_ != script_change_; });
+    if (is_ended_ || script_changes_ != script_change_) return;
+  }
+  send(PictureKind::draft, image);
+}
+
+void Renderer::render_whole() {
+  if (is_old()) return say(Phase::cancelled);
+  RenderOptions options;
+  options.threads = threads_;
+  RenderJob job(*prepared_, options);
+  Clock::time_point last_look = Clock::now();
+  while (!job.finished()) {
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait_for(lock, end_interval,
+                        [this] { return changes_ != change_ || is_cancelled_; });
+      if (changes_ != change_) return;
+      if (is_cancelled_) {
+        job.cancel();
+        break;
+      }
+    }
+    if (Clock::now() - last_look < look_interval) continue;
+    say(Phase::rendering, job.progress());
+    if (may_send() && !job.finished()) send(PictureKind::progress, job.snapshot());
+    last_look = Clock::now();
+  }
+  try {
+    auto image = std::make_shared<const Image>(job.wait());
+    {
+      const std::lock_guard lock(mutex_);
+      picture_ = image;
+    }
+    send(PictureKind::final, *image);
+    events_.finished(revision_, *image);
+    say(Phase::done, 1);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::cancelled) throw;
+    say(Phase::cancelled, job.progress());
+  }
+}
+
+bool Renderer::is_old() const {
+  const std::lock_guard lock(mutex_);
+  return changes_ != change_ || is_cancelled_;
+}
+
+bool Renderer::script_is_old() const {
+  const std::lock_guard lock(mutex_);
+  return script_changes_ != script_change_;
+}
+
+void Renderer::say(Phase phase, double progress, std::string message) const {
+  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  events_.state({phase, revision_.number, progress, seconds, std::move(message)});
+}
+
+/// Says whether the page has taken so many pictures that another may go. The mutex is locked.
+bool Renderer::has_taken() const {
+  return pictures_ < std::uint64_t{acknowledged_} + most_on_their_way;
+}
+
+bool Renderer::may_send() const {
+  const std::lock_guard lock(mutex_);
+  return has_taken();
+}
+
+void Renderer::send(PictureKind kind, const Image& image) {
+  const Settings& settings = view_->scene.settings;
+  events_.picture({kind, ++pictures_, revision_.number, static_cast<std::uint32_t>(settings.width),
+                   static_cast<std::uint32_t>(settings.height),
+                   static_cast<std::uint32_t>(image.width()),
+                   static_cast<std::uint32_t>(image.height()), image.to_rgba8()});
+}
+
+}  // namespace crt::studio

@@ -1,0 +1,131 @@
+// The renderer makes pictures of the newest script and camera, coarse ones first. It runs scripts,
+// prepares scenes and renders in a thread of its own, and gives up whatever is out of date.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <crt/prepared_scene.hpp>
+#include <crt/render.hpp>
+#include <crt/script.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "studio/picture_frame.hpp"
+
+namespace crt::studio {
+
+/// A Revision is a version of the script.
+struct Revision {
+  std::uint32_t number = 0;
+  std::string name;  ///< the script's path
+  std::shared_ptr<const std::string> text;
+};
+
+/// A View is what is shown: a scene that was prepared, and where its entities come from.
+struct View {
+  Revision revision;
+  Scene scene;
+  PreparedScene prepared;
+  std::vector<EntityPlace> places;
+  bool camera_is_overridden = false;
+};
+
+/// Says what the renderer does now.
+struct RenderState {
+  enum class Phase { script, preparing, rendering, done, cancelled, failed };
+  Phase phase = Phase::done;
+  std::uint32_t revision = 0;
+  double progress = 0;
+  double seconds = 0;  ///< since the script or the camera changed
+  std::string message{};
+};
+
+/// RenderEvents come from the renderer's thread.
+struct RenderEvents {
+  std::function<void(const EncodedPicture&)> picture;
+  std::function<void(const RenderState&)> state;
+  std::function<void(const View&)> scene;
+  std::function<void(const Revision&, const Image&)> finished;
+  std::function<void(const std::string& line)> print;
+};
+
+class Renderer {
+ public:
+  explicit Renderer(RenderEvents events, int threads);
+  /// Cancels what runs and waits for its end.
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  void set_script(Revision revision);
+  /// Replaces the script's camera, or gives that back.
+  void set_camera(const std::optional<Camera>& camera);
+  /// Says that the page has taken a picture.
+  void acknowledge(std::uint32_t picture);
+  /// Ends the render that runs. The next change starts another.
+  void cancel();
+  /// Renders again what was cancelled.
+  void restart();
+
+  /// Returns what is shown, or null before there is something. Any thread may call it.
+  std::shared_ptr<const View> view() const;
+  /// Returns the last picture that was finished, or null. Any thread may call it.
+  std::shared_ptr<const Image> picture() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void work();
+  void render_newest();
+  bool run_script();
+  bool prepare_scene();
+  void draw_drafts();
+  void render_whole();
+  void draw_draft(int step, bool may_be_cancelled);
+  int first_step() const;
+  bool is_old() const;
+  bool script_is_old() const;
+  void say(RenderState::Phase phase, double progress = 0, std::string message = {}) const;
+  bool has_taken() const;
+  bool may_send() const;
+  void send(PictureKind kind, const Image& image);
+
+  const RenderEvents events_;
+  const int threads_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  // What is asked for, by other threads.
+  Revision asked_script_;
+  std::optional<Camera> asked_camera_;
+  std::uint64_t script_changes_ = 0;
+  std::uint64_t changes_ = 0;  ///< of anything
+  bool is_cancelled_ = false;
+  bool is_ended_ = false;
+  std::uint32_t acknowledged_ = 0;
+  std::shared_ptr<const View> view_;
+  std::shared_ptr<const Image> picture_;
+
+  // What the renderer's thread works on.
+  std::uint64_t script_change_ = 0;
+  std::uint64_t change_ = 0;
+  Revision revision_;
+  std::optional<Camera> camera_;
+  std::optional<Camera> script_camera_;  ///< of the last scene
+  std::optional<Scene> scene_;           ///< as the script has it
+  std::vector<EntityPlace> places_;
+  std::optional<PreparedScene> prepared_;
+  std::uint32_t pictures_ = 0;
+  double pixels_a_second_ = 0;
+  Clock::time_point start_;
+
+  std::thread thread_;
+};
+
+}  // namespace crt::studio

@@ -1,0 +1,71 @@
+// The web server gives the page's files to browsers on this machine, and connects them with the
+// studio by WebSocket. It lets nobody in who does not know the token, nor pages of other origins.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace crt::studio {
+
+/// A Connection sends messages to one browser. Any thread may use it, also after its end.
+class Connection {
+ public:
+  virtual ~Connection() = default;
+  virtual void send_text(std::string text) = 0;
+  virtual void send_binary(std::string bytes) = 0;
+};
+
+/// A Client is what is at the server's end of a connection. It is destroyed when that ends.
+class Client {
+ public:
+  virtual ~Client() = default;
+  /// Takes a message, in the server's thread.
+  virtual void receive(std::string_view text) = 0;
+};
+
+/// A PageFile is a file that anybody may see.
+struct PageFile {
+  std::string_view content;
+  std::string_view type;
+};
+
+struct WebServerOptions {
+  std::string address = "127.0.0.1";
+  /// 0 lets the system choose.
+  std::uint16_t port = 0;
+  std::string token;
+  std::map<std::string, PageFile, std::less<>> files{};  ///< by the path, "/" too
+  std::size_t most_connections = 64;
+  std::size_t most_clients = 16;
+  std::size_t longest_message = std::size_t{16} << 20;
+};
+
+class WebServer {
+ public:
+  using MakeClient = std::function<std::unique_ptr<Client>(std::shared_ptr<Connection>)>;
+
+  /// Listens at once, and takes note of signals from then on. Throws Error (io) if the address or
+  /// port cannot be had.
+  WebServer(const WebServerOptions& options, MakeClient make_client);
+  ~WebServer();
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+
+  std::uint16_t port() const;
+
+  /// Serves until SIGINT or SIGTERM comes, or stop() is called. Then all connections are closed.
+  void run();
+  /// Ends run(). Any thread may call it.
+  void stop();
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace crt::studio

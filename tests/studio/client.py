@@ -1,0 +1,175 @@
+"""A client of the studio: WebSocket by hand, so that it can also send what no browser would."""
+
+import base64
+import json
+import os
+import re
+import signal
+import socket
+import struct
+import subprocess
+import time
+
+STUDIO = os.environ["CRT_STUDIO"]
+SECONDS = 60
+
+
+class Server:
+    """The studio on a folder."""
+
+    def __init__(self, folder, script=""):
+        self.process = subprocess.Popen(
+            [STUDIO, str(folder), script, "0", "2"], stdout=subprocess.PIPE, text=True
+        )
+        line = self.process.stdout.readline()
+        found = re.search(r"http://127\.0\.0\.1:(\d+)/#token=([0-9a-f]+)", line)
+        self.port, self.token = int(found[1]), found[2]
+
+    def end(self, how=signal.SIGINT):
+        if self.process.poll() is None:
+            self.process.send_signal(how)
+        code = self.process.wait(SECONDS)
+        self.process.stdout.close()
+        return code
+
+    def request(self, target, host=None, origin=None, method="GET", more=()):
+        """Sends a request. Returns the socket, the status and the rest of what came."""
+        lines = [f"{method} {target} HTTP/1.1", f"Host: {host or f'127.0.0.1:{self.port}'}"]
+        if origin:
+            lines.append(f"Origin: {origin}")
+        connection = socket.create_connection(("127.0.0.1", self.port), SECONDS)
+        connection.sendall(("\r\n".join([*lines, *more]) + "\r\n\r\n").encode())
+        data = b""
+        while b"\r\n\r\n" not in data:
+            piece = connection.recv(65536)
+            if not piece:
+                break
+            data += piece
+        head, _, rest = data.partition(b"\r\n\r\n")
+        status = int(head.split(b" ")[1]) if head else 0
+        return connection, status, head.decode(), rest
+
+    def status(self, target, **how):
+        connection, status, _, _ = self.request(target, **how)
+        connection.close()
+        return status
+
+    def upgrade(self, token=None, **how):
+        key = base64.b64encode(os.urandom(16)).decode()
+        return self.request(
+            f"/socket?token={self.token if token is None else token}",
+            more=(
+                "Upgrade: websocket",
+                "Connection: Upgrade",
+                "Sec-WebSocket-Version: 13",
+                f"Sec-WebSocket-Key: {key}",
+            ),
+            **how,
+        )
+
+
+class Client:
+    """A page, as the server sees it."""
+
+    def __init__(self, server):
+        self.socket, status, _, self.buffer = server.upgrade()
+        assert status == 101, status
+        self.revision = 0
+        self.ids = 0
+        self.hello = self.wait("hello")
+
+    def close(self):
+        self.socket.close()
+
+    def send_frame(self, opcode, payload, is_masked=True, length=None):
+        length = len(payload) if length is None else length
+        mask_bit = 0x80 if is_masked else 0
+        head = bytes([0x80 | opcode])
+        if length < 126:
+            head += bytes([mask_bit | length])
+        elif length < 65536:
+            head += bytes([mask_bit | 126]) + struct.pack(">H", length)
+        else:
+            head += bytes([mask_bit | 127]) + struct.pack(">Q", length)
+        # A mask of zeros leaves the payload as it is.
+        self.socket.sendall(head + (bytes(4) if is_masked else b"") + payload)
+
+    def send(self, **message):
+        self.send_frame(1, json.dumps(message).encode())
+
+    def _read(self, count):
+        while len(self.buffer) < count:
+            piece = self.socket.recv(1 << 20)
+            if not piece:
+                raise ConnectionError("the server closed the connection")
+            self.buffer += piece
+        data, self.buffer = self.buffer[:count], self.buffer[count:]
+        return data
+
+    def receive(self):
+        """Returns the next message: an object, or bytes."""
+        content = b""
+        while True:
+            first, second = self._read(2)
+            length = second & 0x7F
+            if length == 126:
+                (length,) = struct.unpack(">H", self._read(2))
+            elif length == 127:
+                (length,) = struct.unpack(">Q", self._read(8))
+            payload = self._read(length)
+            opcode = first & 0xF
+            if opcode == 8:
+                raise ConnectionError("the server closed the connection")
+            if opcode == 9:
+                self.send_frame(10, payload)
+                continue
+            kind = opcode or kind
+            content += payload
+            if first & 0x80:
+                break
+        if kind == 1:
+            return json.loads(content)
+        if content[:4] == b"CRTF":
+            numbers = struct.unpack("<10I", content[:40])
+            if numbers[1] & 0x100:
+                self.send(type="acknowledge", picture=numbers[2])
+        return content
+
+    def wait(self, kind, where=lambda message: True):
+        """Returns the next message of a type, and passes over all others."""
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            message = self.receive()
+            if isinstance(message, dict) and message["type"] == kind and where(message):
+                return message
+        raise TimeoutError(kind)
+
+    def open(self, script):
+        self.send(type="open", script=script)
+        return self.wait("opened")["text"]
+
+    def set_text(self, text):
+        self.revision += 1
+        self.send(type="text", revision=self.revision, text=text)
+        return self.revision
+
+    def ask(self, what, at=0):
+        self.ids += 1
+        self.send(type="ask", id=self.ids, what=what, at=at, revision=self.revision)
+        return self.wait("answer", lambda answer: answer["id"] == self.ids)["result"]
+
+    def pick(self, x, y):
+        self.ids += 1
+        self.send(type="pick", id=self.ids, x=x, y=y)
+        return self.wait("answer", lambda answer: answer["id"] == self.ids)["result"]
+
+    def finish(self):
+        """Waits for the picture of the newest text."""
+        return self.wait("finished", lambda message: message["revision"] == self.revision)
+
+    def picture(self, form="png"):
+        self.send(type="picture", format=form)
+        while True:
+            message = self.receive()
+            if isinstance(message, bytes) and message[:4] == b"CRTI":
+                return message[8:]
