@@ -18,12 +18,12 @@ struct alignas(64) CompactNode {
 
   /// Calls meet(child, enter) as a PlainNode does, with `part` and `enter` in units of s.
   template <class Meet>
-  void visit(const GridSlabs::Approach& line, const LineSpan& part, const Meet& meet) const {
-    GridSlabs::Entries entries;
-    for (std::uint32_t met = line.slabs.meet(boxes, line.from, part.enter, part.leave, entries);
-         met != 0; met &= met - 1) {
+  void visit(const GridSlabs& slabs, const LineSpan& part, const Meet& meet) const {
+    std::array<double, width> enters;
+    for (std::uint32_t met = slabs.meet(boxes, part.enter, part.leave, enters); met != 0;
+         met &= met - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(met));
-      if (children[i] != BvhChild()) meet(children[i], entries[i]);
+      if (children[i] != BvhChild()) meet(children[i], enters[i]);
     }
   }
 

@@ -76,39 +76,26 @@ std::uint32_t GridBoxes::touching(const Bounds& other) const {
   return result;
 }
 
-GridSlabs::GridSlabs(const Vec3& origin, const Vec3& direction, double origin_error,
-                     const Bounds& bounds)
-    : origin_(lanes_of(origin.x, origin.y, origin.z, 0)) {
-  // The least of all doubles have no inverse.
-  constexpr double smallest = 0x1p-900;
-  constexpr double upwards = 0x1p200;
-  const double largest = largest_component(direction);
-  const double up = largest < smallest ? upwards : 1;
-  const double power = power_of_two_below(up * largest);
-  direction_scale_ = power / up;
-  constexpr double least_share = 0x1p-40;
-  constexpr double least_unit = 0x1p-400;
-  const double unit =
-      std::max(power_of_two_below(largest_component(bounds.upper - bounds.lower)), least_unit);
-  inverse_unit_ = inverse_of_power(unit);
-  const double reach = largest_component(origin) + bounds.farthest();
-  const double distance = origin_error + 8 * least_share * reach;
-  const double scale = inverse_of_power(power);
+GridSlabs::GridSlabs(const Vec3& origin, const Vec3& direction, double origin_error)
+    : origin_(lanes_of(origin.x, origin.y, origin.z, 1)),
+      inverse_scale_(power_of_two_below(largest_component(direction))) {
+  constexpr double least_share = 0x1p-1000;
+  constexpr double least_distance = 0x1p-400;
+  const double distance =
+      origin_error + 16 * RaySlabs::slack * largest_component(origin) + least_distance;
+  const double scale = inverse_of_power(inverse_scale_);
   std::array<double, lane_count> inverses{};
   std::array<double, lane_count> errors{};
-  std::uint32_t parallel = 1u << 3;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const double share = up * direction[axis] * scale;
+    const double share = direction[axis] * scale;
     const bool is_parallel = std::abs(share) < least_share;
-    if (is_parallel) parallel |= 1u << axis;
-    inverses[i] = (is_parallel ? 1 / least_share : 1 / share) * inverse_unit_;
+    inverses[i] = is_parallel ? 1 / least_share : 1 / share;
     errors[i] = std::abs(inverses[i]) * (is_parallel ? distance : origin_error);
     near_[i] = inverses[i] < 0 ? GridBoxes::upper : GridBoxes::lower;
   }
   inverse_ = lanes_at<Lanes>(inverses.data());
   error_ = lanes_at<Lanes>(errors.data());
-  is_parallel_ = lanes_with(parallel);
 }
 
 }  // namespace crt::core

@@ -44,96 +44,60 @@ class GridBoxes {
 
 /// GridSlabs are what of a line does not change from GridBoxes to GridBoxes.
 ///
-/// They are those of the line o + s e u, where u is a power of two that is about the size of what
-/// all boxes are in, and the largest component of e is from 1 to 2. So s is t times a power of two.
+/// They are those of the line o + s e, whose direction e has a largest component from 1 to 2: a
+/// power of two times the ray's. So s is a power of two times t.
 ///
-/// A plane is met at b + n c for a byte n, where b = (origin - o) / (e u) and c is the step by the
-/// same divisor. These are doubles. What is added up for eight boxes at once are floats, relative
-/// to where the line comes to all of them. So little is lost, however far o is away.
-///
-/// Errors. Three roundings go into b, two into c, one into the difference from where the line comes
-/// in. All are relative to |b| + 255 |c| and that place. In floats the sum has two roundings, and
-/// its parts one each, relative to what is added up.
-///
-/// Along an axis to which the line is parallel, or all but, any s is right from where it is between
-/// two planes. There e counts as 2^-40, and the planes are farther apart by a distance. That is
-/// more than rounding moves a line which starts on one of them, and more than the line leaves it by
-/// until it is past all boxes. So b is below all s at which the line meets a box, and b + n c
-/// above.
+/// Errors. With b = (origin - o) / e and the step c / e, a plane is met at b + n c for a byte n.
+/// Three roundings go into b, two into c, and one is the last. All are relative to |b| + 255 |c| at
+/// most. Along an axis to which the line is parallel, or all but, any s is right from where it is
+/// between two planes. There 1 / e counts as 2^1000, and the planes are farther apart by a
+/// distance. That is more than rounding moves a line which starts on one of them, and more than the
+/// line leaves it by: coordinates are below 2^333, and so s is below 2^334 + |o|.
 class GridSlabs {
  public:
-  /// Takes the bounds of all boxes. `origin_error` is as RaySlabs takes it.
-  GridSlabs(const Vec3& origin, const Vec3& direction, double origin_error, const Bounds& bounds);
+  /// `origin_error` is as RaySlabs takes it.
+  GridSlabs(const Vec3& origin, const Vec3& direction, double origin_error);
 
-  double to_s(double t) const { return t * direction_scale_ * inverse_unit_; }
-
-  /// An Approach is a line that comes to some boxes at about s = `from`. They are tested the more
-  /// exactly, the nearer that is to where it comes to the first.
-  struct Approach {
-    const GridSlabs& slabs;
-    double from;
-  };
-  /// Returns the line as it comes to boxes at about s = `from`, which is not finite if unknown.
-  Approach approach(double from) const { return {*this, std::isfinite(from) ? from : 0}; }
-
-  /// An Entries says where a line comes to each of the boxes that it meets, or before.
-  class Entries {
-   public:
-    double operator[](std::size_t box) const { return from_ + double{relative_[box]}; }
-
-   private:
-    friend class GridSlabs;
-    double from_;
-    alignas(32) std::array<float, GridBoxes::most> relative_;
-  };
+  double to_s(double t) const { return t * inverse_scale_; }
 
   /// Returns which boxes the line meets from s = `begin` to `end`, and writes where it enters them.
-  /// `from` is as an Approach has it.
-  std::uint32_t meet(const GridBoxes& boxes, double from, double begin, double end,
-                     Entries& entries) const {
-    constexpr double most_steps = 256;
-    constexpr double slack = RaySlabs::slack;
-    constexpr double float_slack = 0x1p-21;
+  std::uint32_t meet(const GridBoxes& boxes, double begin, double end,
+                     std::array<double, GridBoxes::most>& enters) const {
+    using Numbers = std::array<double, lane_count>;
     const Lanes first = (lanes_at<Lanes>(boxes.origin_.data()) - origin_) * inverse_;
     const Lanes step = lanes_at<Lanes>(boxes.step_.data()) * inverse_;
-    const Lanes size = most_steps * abs(step);
-    const Lanes relative = select(is_parallel_, first, first - from);
-    const Lanes error = slack * (abs(first) + size + std::abs(from)) + error_ +
-                        float_slack * (abs(relative) + size);
-    const FloatLanes steps = to_floats(step);
-    const FloatLanes nearest = to_floats(relative - error);
-    const FloatLanes farthest = to_floats(relative + error);
-    const auto widened = [&](double place, double sign) {
-      const double distance = place - from;
-      return static_cast<float>(distance +
-                                sign * (float_slack * std::abs(distance) + slack * std::abs(from)));
-    };
-    FloatOctet enter = widened(begin, -1);
-    FloatOctet leave = widened(end, 1);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint8_t* const near = boxes.corners_[near_[axis]][axis].data();
-      const std::uint8_t* const far = boxes.corners_[1 - near_[axis]][axis].data();
-      const FloatOctet along = static_cast<float>(steps[axis]);
-      const auto at = [&](const std::uint8_t* bytes, const FloatLanes& place) {
-        return multiply_add(octet_of_bytes(bytes), along,
-                            FloatOctet(static_cast<float>(place[axis])));
-      };
-      enter = max(enter, at(near, nearest));
-      leave = min(leave, at(far, farthest));
+    constexpr double most_steps = 256;
+    const Lanes error = RaySlabs::slack * (abs(first) + most_steps * abs(step)) + error_;
+    alignas(32) Numbers steps;
+    alignas(32) Numbers nearest;
+    alignas(32) Numbers farthest;
+    put_lanes(step, steps, 0);
+    put_lanes(first - error, nearest, 0);
+    put_lanes(first + error, farthest, 0);
+    std::uint32_t met = 0;
+    for (std::size_t half = 0; half < GridBoxes::most; half += lane_count) {
+      Lanes enter = begin;
+      Lanes leave = end;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::uint8_t* const near = &boxes.corners_[near_[axis]][axis][half];
+        const std::uint8_t* const far = &boxes.corners_[1 - near_[axis]][axis][half];
+        const Lanes along = steps[axis];
+        // NaN, as from infinity less infinity, clips nothing.
+        enter = max(enter, multiply_add(lanes_of_bytes(near), along, Lanes(nearest[axis])));
+        leave = min(multiply_add(lanes_of_bytes(far), along, Lanes(farthest[axis])), leave);
+      }
+      put_lanes(enter, enters, half);
+      met |= mask_of(enter <= leave) << half;
     }
-    entries.from_ = from - slack * std::abs(from);
-    enter.copy_to(entries.relative_.data(), stdx::vector_aligned);
-    return mask_of(enter <= leave);
+    return met;
   }
 
  private:
-  // The lane that is not used counts as parallel, and nothing is read from it.
+  // The lane that is not used has numbers with which nothing special happens.
   Lanes origin_;
   Lanes inverse_;
   Lanes error_;  ///< of s
-  LaneMask is_parallel_;
-  double direction_scale_;
-  double inverse_unit_;
+  double inverse_scale_;
   std::array<std::size_t, 3> near_{};  ///< by axis, which corners the line comes to first
 };
 

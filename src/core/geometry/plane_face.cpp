@@ -4,7 +4,13 @@
 
 namespace crt::core {
 
-FacePlane::Meeting FacePlane::meet(const ObjectRay& ray) const {
+PlaneFace::PlaneFace(const Vec3& normal, const Vec3& position)
+    : normal_(scaled_to_one(normal)),
+      unit_normal_(unit_vector(normal)),
+      position_(position),
+      axis_(coordinate_axis(normal)) {}
+
+PlaneFace::Meeting PlaneFace::meet(const ObjectRay& ray) const {
   if (axis_ >= 0) return meet_axis_plane(ray);
   Meeting result;
   const DoubleDouble rate =
@@ -36,12 +42,12 @@ FacePlane::Meeting FacePlane::meet(const ObjectRay& ray) const {
   return result;
 }
 
-double FacePlane::meeting_error(double t, double reach, double normal_length, double rate) {
+double PlaneFace::meeting_error(double t, double reach, double normal_length, double rate) {
   constexpr double roundings = 8;
   return rounding_of(t) + roundings * unit_roundoff * reach * normal_length / std::abs(rate);
 }
 
-FacePlane::Meeting FacePlane::meet_axis_plane(const ObjectRay& ray) const {
+PlaneFace::Meeting PlaneFace::meet_axis_plane(const ObjectRay& ray) const {
   const double speed = ray.direction[axis_];
   const auto meeting = AxisMeeting<double>::of(position_[axis_], ray.origin[axis_], speed,
                                                ray.origin_low[axis_], ray.direction_low[axis_]);
@@ -52,7 +58,11 @@ FacePlane::Meeting FacePlane::meet_axis_plane(const ObjectRay& ray) const {
           .rate = normal_[axis_] > 0 ? speed : -speed};
 }
 
-DoubleDouble FacePlane::height_at_origin(const ObjectRay& ray) const {
+Vec3 PlaneFace::point(const ObjectRay& ray, const Meeting& meeting) const {
+  return onto_plane(ray.from_center(position_, meeting.t, meeting.t_low));
+}
+
+DoubleDouble PlaneFace::height_at_origin(const ObjectRay& ray) const {
   DoubleDouble height;
   for (int axis = 0; axis < 3; ++axis) {
     const DoubleDouble offset = two_sum(ray.origin[axis], -position_[axis]);
@@ -60,10 +70,6 @@ DoubleDouble FacePlane::height_at_origin(const ObjectRay& ray) const {
              DoubleDouble(normal_[axis] * (offset.lo + ray.origin_low[axis]));
   }
   return height;
-}
-
-Vec3 PlaneFace::point(const ObjectRay& ray, const Meeting& meeting) const {
-  return onto_plane(ray.from_center(position(), meeting.t, meeting.t_low));
 }
 
 void PlaneFace::clip(const ObjectRay& ray, std::uint32_t face, ClippedSpan& span) const {
@@ -105,10 +111,10 @@ void PlaneFace::emit(const Meeting& meeting, CrossingList& out) {
 }
 
 Surface PlaneFace::surface() const {
-  Surface surface{.kind = SurfaceKind::plane, .position = position(), .direction = normal()};
-  if (axis() >= 0) {
+  Surface surface{.kind = SurfaceKind::plane, .position = position_, .direction = normal_};
+  if (axis_ >= 0) {
     surface.position = Vec3(0.0);
-    surface.position[axis()] = position()[axis()];
+    surface.position[axis_] = position_[axis_];
   }
   return surface;
 }

@@ -44,12 +44,10 @@ AxisMeeting<Real> AxisMeeting<Real>::of(const Real& position, const Real& origin
           .error = rounding_of(sum.hi) * last_rounding};
 }
 
-/// A FacePlane is the plane of a face, without what only points on it need.
-class FacePlane {
+class PlaneFace {
  public:
   /// `normal` points out of the solid and may have any length but 0.
-  FacePlane(const Vec3& normal, const Vec3& position)
-      : normal_(scaled_to_one(normal)), position_(position), axis_(coordinate_axis(normal)) {}
+  PlaneFace(const Vec3& normal, const Vec3& position);
 
   /// A Meeting is where a line meets the plane.
   struct Meeting {
@@ -65,33 +63,12 @@ class FacePlane {
   /// position, and `rate` is n . d for a normal n of the given length.
   static double meeting_error(double t, double reach, double normal_length, double rate);
 
+  /// Returns the meeting point relative to the position.
+  Vec3 point(const ObjectRay& ray, const Meeting& meeting) const;
+
   /// Returns whether the point at t = 0 is behind the plane, neither on it nor before. It is for
   /// parallel lines.
   bool behind(const ObjectRay& ray) const { return height_at_origin(ray).hi < 0; }
-
-  const Vec3& position() const { return position_; }
-  /// Returns the normal up to a power of two.
-  const Vec3& normal() const { return normal_; }
-  /// Returns the coordinate axis of the normal, or -1.
-  int axis() const { return axis_; }
-
- private:
-  Meeting meet_axis_plane(const ObjectRay& ray) const;
-  /// Returns how far before the plane the point at t = 0 is, times the normal's length.
-  DoubleDouble height_at_origin(const ObjectRay& ray) const;
-
-  Vec3 normal_;
-  Vec3 position_;
-  int axis_;
-};
-
-class PlaneFace : public FacePlane {
- public:
-  PlaneFace(const Vec3& normal, const Vec3& position)
-      : FacePlane(normal, position), unit_normal_(unit_vector(normal)) {}
-
-  /// Returns the meeting point relative to the position.
-  Vec3 point(const ObjectRay& ray, const Meeting& meeting) const;
 
   /// Cuts off the part of the line before the plane. It obeys ray.start if that is this face's
   /// number.
@@ -113,13 +90,13 @@ class PlaneFace : public FacePlane {
   template <class Vector>
   Vector onto_plane(const Vector& relative) const {
     using Real = RealOf<Vector>;
-    if (axis() < 0) {
+    if (axis_ < 0) {
       const Vector normal = broadcast<Real>(unit_normal_);
       const auto height = accurate_dot(normal, relative);
       return relative - (height.hi + height.lo) * normal;
     }
-    return {axis() == 0 ? Real{} : relative.x, axis() == 1 ? Real{} : relative.y,
-            axis() == 2 ? Real{} : relative.z};
+    return {axis_ == 0 ? Real{} : relative.x, axis_ == 1 ? Real{} : relative.y,
+            axis_ == 2 ? Real{} : relative.z};
   }
 
   /// Writes what is at such a point, without u and v. If the plane is across a coordinate axis, the
@@ -127,18 +104,30 @@ class PlaneFace : public FacePlane {
   template <class Vector>
   void write_point(const Vector& relative, SurfacePointOf<RealOf<Vector>>& point) const {
     using Real = RealOf<Vector>;
-    point.position = broadcast<Real>(position()) + relative;
+    point.position = broadcast<Real>(position_) + relative;
     point.normal = broadcast<Real>(unit_normal_);
   }
 
+  const Vec3& position() const { return position_; }
   const Vec3& unit_normal() const { return unit_normal_; }
+  /// Returns the normal up to a power of two.
+  const Vec3& normal() const { return normal_; }
+  /// Returns the coordinate axis of the normal, or -1.
+  int axis() const { return axis_; }
 
   /// Returns the plane with the face's own normal. The position of a plane across a coordinate axis
   /// has only that coordinate.
   Surface surface() const;
 
  private:
+  Meeting meet_axis_plane(const ObjectRay& ray) const;
+  /// Returns how far before the plane the point at t = 0 is, times the normal's length.
+  DoubleDouble height_at_origin(const ObjectRay& ray) const;
+
+  Vec3 normal_;
   Vec3 unit_normal_;
+  Vec3 position_;
+  int axis_;
 };
 
 /// Sets u and v of points on a disc, `relative` to its middle. u is the angle from the frame's

@@ -36,16 +36,10 @@ inline Lanes lanes_of_bytes(const std::uint8_t* bytes) {
   return lanes_of(bytes[0], bytes[1], bytes[2], bytes[3]);
 }
 
-/// Returns eight bytes in a row as numbers.
-inline FloatOctet octet_of_bytes(const std::uint8_t* bytes) {
-  return FloatOctet([&](auto i) { return static_cast<float>(bytes[i]); });
-}
-
 }  // namespace plain_bits
 
 #ifndef __AVX2__
 using plain_bits::lanes_of_bytes;
-using plain_bits::octet_of_bytes;
 #endif
 using plain_bits::low_product;
 using plain_bits::reversed;
@@ -62,13 +56,6 @@ using plain_bits::reversed;
   std::int32_t four;
   std::memcpy(&four, bytes, sizeof four);
   return std::bit_cast<Lanes>(_mm256_cvtepi32_pd(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(four))));
-}
-
-[[gnu::always_inline]] inline FloatOctet octet_of_bytes(const std::uint8_t* bytes) {
-  std::int64_t eight;
-  std::memcpy(&eight, bytes, sizeof eight);
-  return std::bit_cast<FloatOctet>(
-      _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_cvtsi64_si128(eight))));
 }
 
 /// Returns the numbers with the bits in reverse order. It looks the halves of bytes up.

@@ -104,7 +104,7 @@ class HeightFacets {
   /// met once.
   class Slabs : public RaySlabs {
    public:
-    Slabs(const Vec3& origin, const Vec3& direction, double origin_error, const Bounds& /*bounds*/)
+    Slabs(const Vec3& origin, const Vec3& direction, double origin_error)
         : RaySlabs(origin, direction, origin_error), origin_(origin) {
       for (int axis = 0; axis < 3; ++axis) {
         inverse_[axis] = 1 / direction[axis];
@@ -165,8 +165,7 @@ class HeightFacets {
 
   /// Calls meet(child, enter) for what the line comes near in a block, within `part` of it.
   template <class Meet>
-  void visit(const Child& block, double /*from*/, const Slabs& slabs, const LineSpan& part,
-             const Meet& meet) const {
+  void visit(const Child& block, const Slabs& slabs, const LineSpan& part, const Meet& meet) const {
     std::array<double, HeightGrid::parts_a_block> enters;
     for (std::uint32_t met = parts_near(block, slabs, part, enters); met != 0; met &= met - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(met));

@@ -140,8 +140,7 @@ double MetTriangles<Triangles>::most_overlap() const {
 /// one after which nothing matters, provided that this is alone.
 template <class Triangles>
 void MetTriangles<Triangles>::find(bool first_is_enough) {
-  const typename Triangles::Slabs slabs(ray_.origin, ray_.direction, line_.origin_error(),
-                                        mesh_.bounds());
+  const typename Triangles::Slabs slabs(ray_.origin, ray_.direction, line_.origin_error());
   LineSpan part{slabs.to_s(begin_of_line()), infinity};
   const double margin = mesh_.is_closed() ? most_overlap() : 0;
   constexpr std::size_t usual = 256;
@@ -152,9 +151,7 @@ void MetTriangles<Triangles>::find(bool first_is_enough) {
     if (enter > part.leave) continue;
     if (!child.is_leaf()) {
       const std::size_t before = open.count();
-      mesh_.visit(child, enter, slabs, part, [&](Child next, double place) {
-        open.push({place, next});
-      });
+      mesh_.visit(child, slabs, part, [&](Child next, double place) { open.push({place, next}); });
       // The nearest comes last. This order saves time, and nothing else.
       sort_by_insertion(open.from(before),
                         [](const TreePart& a, const TreePart& b) { return a.enter > b.enter; });

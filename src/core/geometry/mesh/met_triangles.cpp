@@ -12,7 +12,7 @@ StandardMeshTier::StandardMeshTier(const ObjectRay& ray) : ray_(ray) {
 }
 
 bool StandardMeshTier::meet(const Triangle& triangle, Crossing& crossing) const {
-  const PlaneFace::Meeting meeting = meet_plane_of(triangle, ray_);
+  const PlaneFace::Meeting meeting = TriangleShape(triangle).meet(ray_);
   crossing.t = meeting.t;
   crossing.error = meeting.error;
   return meeting.found;

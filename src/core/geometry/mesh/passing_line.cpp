@@ -1,6 +1,7 @@
 #include "core/geometry/mesh/passing_line.hpp"
 
 #include <bit>
+#include <limits>
 
 #include "core/math/dyadic_vector.hpp"
 #include "core/math/vector.hpp"
@@ -17,8 +18,36 @@ PassingLine::PassingLine(const ObjectRay& near, const ExactRay* ray, double orig
   direction_error_ = scale * (direction_error + largest_component(near.direction_low)) + least;
 }
 
-void PassingLine::decide(const TriangleLanes& triangles, std::uint32_t some, Sides& sides) {
-  auto& [left, right, decided] = sides;
+// Errors. Six products of components make up S, each below 2 m^2 for the largest component m of
+// the offsets. Each is off by 8 roundings at most, those of the offsets and sums among them. An
+// error of the origin changes two factors, one of the direction a third.
+PassingLine::Crossed PassingLine::crosses(const TriangleLanes& triangles, std::uint32_t some) {
+  const VectorLanes origin = lanes_of(near_.origin);
+  const VectorLanes direction = lanes_of(direction_);
+  const VectorLanes to_a = triangles[0] - origin;
+  const VectorLanes to_b = triangles[1] - origin;
+  const VectorLanes to_c = triangles[2] - origin;
+  const VectorLanes across_a = cross(direction, to_a);
+  const VectorLanes across_b = cross(direction, to_b);
+  const std::array<Lanes, 3> volumes = {dot(across_a, to_b), dot(across_b, to_c),
+                                        -dot(across_a, to_c)};
+  const Lanes size =
+      max(max(largest_component(to_a), largest_component(to_b)), largest_component(to_c));
+  constexpr double roundings = 6 * 2 * 8 + 1;
+  const double by_direction = roundings * unit_roundoff + 6 * direction_error_;
+  constexpr double least_size = 0x1p-450;  // so that nothing underflows
+  const Lanes open = select(size > least_size, size * (size * by_direction + 24 * origin_error_),
+                            lanes_of(std::numeric_limits<double>::infinity()));
+  std::uint32_t left = 0;
+  std::uint32_t right = 0;
+  std::array<std::uint32_t, 3> decided{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t to_left = mask_of(volumes[i] > open);
+    const std::uint32_t to_right = mask_of(volumes[i] < -open);
+    decided[i] = to_left | to_right;
+    left |= to_left;
+    right |= to_right;
+  }
   for (std::uint32_t near = some & ~(left & right); near != 0; near &= near - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(near));
     const std::uint32_t bit = near & (0u - near);
@@ -29,6 +58,7 @@ void PassingLine::decide(const TriangleLanes& triangles, std::uint32_t some, Sid
       (is_left ? left : right) |= bit;
     }
   }
+  return {.along = some & left & ~right, .against = some & right & ~left};
 }
 
 const ExactLine& PassingLine::exact() {

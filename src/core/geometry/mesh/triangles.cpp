@@ -273,6 +273,19 @@ void MeshTriangles::find_facing(std::span<const EdgePair> pairs) {
   }
 }
 
+TriangleLanes MeshTriangles::placed_corners(std::uint32_t first, std::uint32_t count) const {
+  TriangleLanes result;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto row = [&](std::uint32_t lane) {
+      const TriangleIndices& corners = placed_[first + std::min(lane, count - 1)].corners;
+      return lanes_at<Lanes>(&positions_[corners[corner]].x);
+    };
+    const std::array<Lanes, lane_count> columns = transposed({row(0), row(1), row(2), row(3)});
+    result[corner] = {columns[0], columns[1], columns[2]};
+  }
+  return result;
+}
+
 std::size_t MeshTriangles::bytes() const {
   return sizeof *this + positions_.capacity() * sizeof(Vec3) + placed_.capacity() * sizeof(Placed) +
          places_.capacity() * sizeof(std::uint32_t) + tree_.bytes() +

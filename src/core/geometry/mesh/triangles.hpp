@@ -7,7 +7,6 @@
 // triangles pass through one another.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -74,17 +73,7 @@ class MeshTriangles {
   }
   /// Returns the corners of up to four of placed(), from `first` on. Lanes that are left have those
   /// of the last.
-  core::TriangleLanes placed_corners(std::uint32_t first, std::uint32_t count) const {
-    const auto of_all = [&](std::size_t corner) {
-      const auto row = [&](std::uint32_t lane) {
-        const TriangleIndices& corners = placed_[first + std::min(lane, count - 1)].corners;
-        return core::lanes_at<core::Lanes>(&positions_[corners[corner]].x);
-      };
-      const auto [x, y, z, unused] = core::transposed({row(0), row(1), row(2), row(3)});
-      return core::VectorLanes{x, y, z};
-    };
-    return {of_all(0), of_all(1), of_all(2)};
-  }
+  core::TriangleLanes placed_corners(std::uint32_t first, std::uint32_t count) const;
 
   /// Returns whether a triangle lies in the plane of a face.
   bool are_in_one_plane(const Placed& triangle, std::uint32_t face) const {
@@ -123,12 +112,10 @@ class MeshTriangles {
   };
   core::BvhChild root() const { return core::BvhChild::node(0); }
   Leaf leaf(core::BvhChild child) const { return {*this, child}; }
-  /// Calls meet(child, enter) for what a line that comes to a node at about `from` comes near
-  /// there.
   template <class Meet>
-  void visit(core::BvhChild node, double from, const core::GridSlabs& slabs,
-             const core::LineSpan& part, const Meet& meet) const {
-    tree_.visit(node.index(), slabs.approach(from), part, meet);
+  void visit(core::BvhChild node, const core::GridSlabs& slabs, const core::LineSpan& part,
+             const Meet& meet) const {
+    tree_.visit(node.index(), slabs, part, meet);
   }
 
   bool is_closed() const { return fault_.empty(); }

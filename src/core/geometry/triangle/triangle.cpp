@@ -58,35 +58,6 @@ int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double 
   return precise.hi > 0 ? 1 : -1;
 }
 
-/// Returns where a line meets the triangle's plane. If it is parallel to that but for little more
-/// than the rounding of the normal, the normal's further digits decide.
-PlaneFace::Meeting refined(const PlaneFace::Meeting& meeting, const ObjectRay& ray,
-                           const FacePlane& plane, const PreciseVec3& n) {
-  constexpr double nearly_parallel = 0x1p-40;
-  const double size = largest_component(plane.normal()) * largest_component(ray.direction);
-  if (!(std::abs(meeting.rate) < nearly_parallel * size)) return meeting;
-  PreciseVec3 direction;
-  PreciseVec3 offset;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    direction[i] = two_sum(ray.direction[axis], ray.direction_low[axis]);
-    const DoubleDouble exact = two_sum(ray.origin[axis], -plane.position()[axis]);
-    offset[i] = exact + DoubleDouble(ray.origin_low[axis]);
-  }
-  const DoubleDouble rate = dot(n, direction);
-  const DoubleDouble height = dot(n, offset);
-  PlaneFace::Meeting result = meeting;
-  result.rate = rate.hi;
-  const DoubleDouble t = -height / rate;
-  result.found = rate.hi != 0 && std::isfinite(t.hi);
-  if (!result.found) return result;
-  result.t = t.hi;
-  result.t_low = t.lo;
-  const double reach = glm::length(ray.from_center(plane.position(), t.hi, t.lo));
-  result.error = PlaneFace::meeting_error(t.hi, reach, glm::length(rounded(n)), rate.hi);
-  return result;
-}
-
 }  // namespace
 
 PreciseVec3 precise_normal_of(const Triangle& triangle) {
@@ -128,15 +99,34 @@ bool TriangleShape::passes_edges(const ObjectRay& ray) const {
   return !(left && right);
 }
 
+/// Finds where a line meets the triangle's plane. If the line is parallel to it but for little more
+/// than the rounding of the normal, the normal's further digits decide.
 PlaneFace::Meeting TriangleShape::meet(const ObjectRay& ray) const {
   const PlaneFace::Meeting meeting = face_.meet_surface(ray);
-  return ray.start.face == 0 ? meeting : refined(meeting, ray, face_, precise_normal_);
-}
-
-PlaneFace::Meeting meet_plane_of(const Triangle& triangle, const ObjectRay& ray) {
-  const PreciseVec3 normal = precise_normal_of(triangle);
-  const FacePlane plane(rounded(normal), triangle.a);
-  return refined(plane.meet(ray), ray, plane, normal);
+  constexpr double nearly_parallel = 0x1p-40;
+  const double size = largest_component(face_.normal()) * largest_component(ray.direction);
+  if (ray.start.face == 0 || !(std::abs(meeting.rate) < nearly_parallel * size)) return meeting;
+  PreciseVec3 direction;
+  PreciseVec3 offset;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    direction[i] = two_sum(ray.direction[axis], ray.direction_low[axis]);
+    const DoubleDouble exact = two_sum(ray.origin[axis], -corners_[0][axis]);
+    offset[i] = exact + DoubleDouble(ray.origin_low[axis]);
+  }
+  const PreciseVec3& n = precise_normal_;
+  const DoubleDouble rate = dot(n, direction);
+  const DoubleDouble height = dot(n, offset);
+  PlaneFace::Meeting result = meeting;
+  result.rate = rate.hi;
+  const DoubleDouble t = -height / rate;
+  result.found = rate.hi != 0 && std::isfinite(t.hi);
+  if (!result.found) return result;
+  result.t = t.hi;
+  result.t_low = t.lo;
+  const double reach = glm::length(ray.from_center(corners_[0], t.hi, t.lo));
+  result.error = PlaneFace::meeting_error(t.hi, reach, glm::length(rounded(n)), rate.hi);
+  return result;
 }
 
 bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {

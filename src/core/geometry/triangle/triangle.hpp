@@ -47,9 +47,6 @@ class TriangleShape final : public ShapeOfPoints<TriangleShape> {
   PlaneFace face_;
 };
 
-/// Finds where a line that does not start there meets the plane of a triangle, as its shape does.
-PlaneFace::Meeting meet_plane_of(const Triangle& triangle, const ObjectRay& ray);
-
 /// Returns (b - a) x (c - a) to about 100 bits of its largest component, up to a power of two. It
 /// is 0 only for corners on one line.
 PreciseVec3 precise_normal_of(const Triangle& triangle);
