@@ -94,32 +94,34 @@ class Farm {
                     planned.passes > 0 ? fmt::format(", {} passes", planned.passes) : ""));
   }
 
-  /// Works on one task, or on all that have no part.
+  /// Works on one task, or on all that have no part, or one that is damaged.
   void work() {
     if (request_.task) {
-      work_on(*request_.task);
+      if (!work_on(*request_.task)) say_of(*request_.task, "was done before");
       return;
     }
-    for (const int task : missing_tasks()) work_on(task);
+    const int tasks = read_farm_plan(request_.target).tasks;
+    int rendered = 0;
+    for (int task = 0; task < tasks; ++task) rendered += work_on(task) ? 1 : 0;
+    if (rendered == 0) {
+      reporter_.note(fmt::format("{}: all tasks were done before", request_.target.string()));
+    }
   }
 
-  void work_on(int task) {
+  void say_of(int task, std::string_view what) {
+    reporter_.note(fmt::format("task {}: {}", task, what));
+  }
+
+  /// Returns whether there was something to do.
+  bool work_on(int task) {
     Progress progress(fmt::format("task {}", task), progress_style(request_));
     const bool rendered = work_farm(
         request_.target, task, {.threads = request_.render.threads, .progress = [&](double share) {
                                   progress.update(share);
                                   return !interrupt_.interrupted();
                                 }});
-    reporter_.note(fmt::format("task {}: {}", task, rendered ? "done" : "was done before"));
-  }
-
-  std::vector<int> missing_tasks() const {
-    const FarmStatus status = farm_status(request_.target);
-    std::vector<int> tasks;
-    for (std::size_t i = 0; i < status.tasks.size(); ++i) {
-      if (status.tasks[i].state != FarmTaskState::done) tasks.push_back(static_cast<int>(i));
-    }
-    return tasks;
+    if (rendered) say_of(task, "done");
+    return rendered;
   }
 
   /// Merges what has not been merged before.

@@ -44,6 +44,13 @@ grep -q '000003.part' errors
 "$crt" farm submit cut --local -q
 check cut
 
+# One that is damaged in its middle is found by who works on all tasks, too.
+printf 'x' | dd of=cut/parts/000002.part bs=1 seek=500 conv=notrunc status=none
+rm cut/*.png
+"$crt" farm work cut -q
+"$crt" farm merge cut -q
+check cut
+
 # A full disk leaves no part, and says so.
 if (
   ulimit -f 1
