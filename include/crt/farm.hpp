@@ -87,6 +87,10 @@ struct FarmWorkOptions {
 /// invalid_argument (no such task), io, script, cancelled, limit, out_of_memory.
 bool work_farm(const std::filesystem::path& job, int task, const FarmWorkOptions& options = {});
 
+/// Returns the name of a frame's picture. A run of '#' or a "%04d" in the file's name becomes the
+/// number (with that many digits at least). Where there is neither, _0001 goes before the ending.
+std::filesystem::path frame_path(const std::filesystem::path& output, int frame);
+
 /// FarmMergeOptions say where the pictures go.
 struct FarmMergeOptions {
   /// Names the picture of a frame, which is 0 where there are no frames. Without it pictures go

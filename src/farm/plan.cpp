@@ -37,6 +37,8 @@ void check(const FarmOptions& options) {
             "a tile has a width and a height");
   refuse_if(options.script.allow_outside_files, "allow_outside_files",
             "a job's script reads files of its own folder and of resource folders alone");
+  refuse_if(options.script.open_file != nullptr, "open_file",
+            "a job's files come from the file system: its planner calls no open_file");
   refuse_if(options.render.region.has_value(), "region", "a job is of whole pictures");
   refuse_if(!options.render.checkpoint.empty(), "checkpoint", "a job has parts, and no checkpoint");
   refuse_if(options.render.passes < 0, "passes", "passes must not be negative");
