@@ -17,9 +17,10 @@ import crt
 RETRIES = 2
 
 
-def render(client: Client, script: str, job: str, frames: tuple[int, int], output: str) -> None:
+def render(client: Client, given: argparse.Namespace, job: str) -> None:
     """Renders frames on the workers of a cluster."""
-    plan = crt.farm.plan(script, job, frames=frames, least_seconds=10)
+    first, last = given.frames
+    plan = crt.farm.plan(given.script, job, frames=(first, last), tasks=given.tasks)
     print(f"{plan.tasks} tasks of about {plan.seconds / plan.tasks:.3g} s")
     # Whether a task is done is seen by its part, so a result that Dask keeps must not count.
     futures = client.map(
@@ -33,7 +34,7 @@ def render(client: Client, script: str, job: str, frames: tuple[int, int], outpu
     for done, future in enumerate(as_completed(futures), 1):
         future.result()  # raises what the task has raised
         print(f"\r{done} of {plan.tasks} tasks", end="", flush=True)
-    merged = crt.farm.merge(job, output=output)
+    merged = crt.farm.merge(job, output=given.output)
     print(f"\n{len(merged.frames)} frames")
 
 
@@ -41,6 +42,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Renders frames on a Dask cluster.")
     parser.add_argument("script")
     parser.add_argument("--frames", type=int, nargs=2, default=(1, 12), metavar=("FIRST", "LAST"))
+    parser.add_argument("--tasks", type=int, default=16, help="several for each worker are good")
     parser.add_argument("--job", default="job", help="a new folder")
     parser.add_argument("--output", default="film_###.png")
     parser.add_argument("--sheet", default="sheet.png")
@@ -50,7 +52,7 @@ def main() -> None:
     cluster = given.scheduler or LocalCluster(threads_per_worker=1, dashboard_address=None)
     job = str(pathlib.Path(given.job).resolve())
     with Client(cluster) as client:
-        render(client, given.script, job, tuple(given.frames), given.output)
+        render(client, given, job)
     if not given.scheduler:
         cluster.close()
     crt.farm.sheet(job).save(given.sheet)
