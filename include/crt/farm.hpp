@@ -64,10 +64,11 @@ struct FarmPlan {
   bool has_channels = false;   ///< beside colours, so that they are EXR files
 };
 
-/// Makes a job of a script in a folder, which must not exist or be empty. It renders a small
-/// picture of some frames to see where time goes. A time budget is taken for what this machine does
-/// in that time with `render.threads`, and becomes a number of passes. Throws Error: script (the
-/// message has the diagnostics), io, invalid_argument, limit, cancelled, out_of_memory.
+/// Makes a job of a script in a folder, which must not exist or be empty, and is empty if planning
+/// fails. It renders a small picture of some frames to see where time goes. A time budget is taken
+/// for what this machine does in that time with `render.threads`, and becomes a number of passes.
+/// Throws Error: script (the message has the diagnostics), io, invalid_argument, limit, cancelled,
+/// out_of_memory.
 FarmPlan plan_farm(const std::filesystem::path& script, const std::filesystem::path& job,
                    const FarmOptions& options = {});
 

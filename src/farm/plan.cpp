@@ -66,6 +66,13 @@ void make_folders(const fs::path& folder) {
   }
 }
 
+/// Leaves the folder of a job that could not be planned empty, so that it may be planned again.
+void remove_folders(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* inside : {contents_folder, parts_folder, log_folder, manifest_name})
+    fs::remove_all(folder / inside, ignored);
+}
+
 Manifest manifest_of(const fs::path& script, const FarmOptions& options) {
   return {.script = "scene/" + script.filename().string(),
           .resource_folders = static_cast<int>(options.script.resource_directories.size()),
@@ -220,7 +227,12 @@ FarmPlan plan_farm(const std::filesystem::path& script, const std::filesystem::p
                    const FarmOptions& options) {
   farm::check(options);
   farm::make_folders(job);
-  return farm::Planner(script, job, options).plan();
+  try {
+    return farm::Planner(script, job, options).plan();
+  } catch (...) {
+    farm::remove_folders(job);
+    throw;
+  }
 }
 
 }  // namespace crt
