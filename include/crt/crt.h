@@ -1614,6 +1614,196 @@ CRT_API crt_status crt_custom_create(const crt_custom* custom, crt_entity** out)
 
 /** @} */
 
+/* ---- rendering on many machines ------------------------------------------------------------- */
+
+/** @defgroup farm Rendering on many machines
+ * A render of a script is planned as tasks, which any machines work on, and merged. The job is a
+ * folder that all of them see, or that is copied to and fro. Nothing here starts a process or talks
+ * to a network: that is for what calls it (docs/farm.md). The merged pictures are to the byte those
+ * of one machine, whatever the tasks are and however often each of them ran. Threads: Any thread.
+ *
+ * @code{.c}
+ * crt_farm_options options;
+ * crt_farm_job job;
+ * crt_farm_options_init(&options, sizeof options);
+ * options.tasks = 64;
+ * job.struct_size = sizeof job;
+ * if (crt_farm_plan("scene.crt", "job", &options, &job)) return;
+ * for (int32_t task = 0; task < job.tasks; ++task) crt_farm_work("job", task, NULL, NULL);
+ * crt_farm_merge("job", NULL, NULL);
+ * @endcode
+ * @{ */
+
+/** Says what is to be rendered on many machines, and how it is split. */
+typedef struct crt_farm_options {
+  uint32_t struct_size;
+  int32_t has_frames;   /**< not 0: renders the whole t from first_frame to last_frame; 0: one
+                             picture, at the script options' t */
+  int32_t first_frame;  /**< of an animation */
+  int32_t last_frame;   /**< is rendered, too */
+  int32_t tasks;        /**< in [1, 1000000]; 0: as many as last `least_seconds` each */
+  int32_t tile_width;   /**< pixels across of the tiles that pictures are cut into; 0: they are cut
+                             where that makes the tasks' costs equal */
+  int32_t tile_height;  /**< pixels down; 0 if tile_width is */
+  int32_t reserved;     /**< 0 */
+  double least_seconds; /**< that a task may take on one core; 0: 60 */
+  /** NULL, or what the script gets. Of the limits max_steps alone counts. `print` and `poll` are
+   * not called. allow_outside_files and open_file are CRT_ERROR_INVALID_ARGUMENT, as the job has
+   * all files of the script. */
+  const crt_script_options* script;
+  /** NULL, or what the tasks get: `seed`, `passes`, `max_ray_steps` and `aovs`. Planning uses
+   * `threads` and `progress`, which is first 0 and never 1. A region and a checkpoint are
+   * CRT_ERROR_INVALID_ARGUMENT. */
+  const crt_render_options* render;
+  uint64_t max_primitives; /**< see crt_prepare_options */
+} crt_farm_options;
+
+/** Fills in the defaults, which are all 0. Since 1.1. */
+CRT_API crt_status crt_farm_options_init(crt_farm_options* options, size_t struct_size);
+
+/** Says what a job consists of. */
+typedef struct crt_farm_job {
+  uint32_t struct_size;
+  int32_t tasks;       /**< their numbers go from 0 to tasks - 1 */
+  int32_t has_frames;  /**< 1: it is an animation; 0: one picture */
+  int32_t first_frame; /**< 0 if it is one picture */
+  int32_t last_frame;
+  int32_t width; /**< of the pictures */
+  int32_t height;
+  int32_t passes;         /**< see crt_render_options; a time budget becomes such a number */
+  int32_t has_channels;   /**< 1: there are channels beside the colours, so that pictures are EXR */
+  int32_t reserved;       /**< 0 */
+  double seconds;         /**< estimated, of one core, for all tasks */
+  double longest_seconds; /**< estimated, for the task that takes longest */
+} crt_farm_job;
+
+/**
+ * Makes a job of a script, in a folder that must not exist or be empty. It renders a small picture
+ * of some frames to see where time goes. A time budget is taken for what this machine does in that
+ * time with the render options' threads. Since 1.1.
+ * @param options  NULL for the defaults
+ * @param plan     gets what the job consists of; its struct_size must be set
+ * @return CRT_ERROR_SCRIPT if the script is wrong; the message has the diagnostics
+ */
+CRT_API crt_status crt_farm_plan(const char* script, const char* job,
+                                 const crt_farm_options* options, crt_farm_job* plan);
+/** Reads what a job consists of. `plan->struct_size` must be set. Since 1.1. */
+CRT_API crt_status crt_farm_read_plan(const char* job, crt_farm_job* plan);
+
+/** Says how a task is worked on. */
+typedef struct crt_farm_work_options {
+  uint32_t struct_size;
+  int32_t threads;          /**< at most; 0: what the calling TBB arena has */
+  crt_progress_fn progress; /**< gets the share of the task that is done */
+  void* progress_user;
+} crt_farm_work_options;
+
+/** Fills in the defaults, which are all 0. Since 1.1. */
+CRT_API crt_status crt_farm_work_options_init(crt_farm_work_options* options, size_t struct_size);
+
+/**
+ * Renders a task of a job, and leaves its part. A task whose part is there and whole is not
+ * rendered again. A part is written whole or not at all, and has the same bytes whoever makes it.
+ * So any number of processes and threads may work on one task. Since 1.1.
+ * @param task      from 0 on
+ * @param options   NULL for the defaults
+ * @param rendered  NULL, or gets 1, or 0 if the part was there
+ */
+CRT_API crt_status crt_farm_work(const char* job, int32_t task,
+                                 const crt_farm_work_options* options, int32_t* rendered);
+
+/** Lists what merging reports. */
+typedef enum crt_farm_report {
+  CRT_FARM_REPORT_WRITTEN = 0, /**< the picture of a frame was written */
+  CRT_FARM_REPORT_MISSING,     /**< a task has no part */
+  CRT_FARM_REPORT_REFUSED      /**< the part of a task is damaged, or of another plan */
+} crt_farm_report;
+
+/**
+ * Gets what merging has found, from the thread that merges.
+ * @param report  a crt_farm_report
+ * @param number  of the frame or task; the frame of a single picture is 0
+ * @param why     says why a part is refused and names its file; else ""
+ */
+typedef void (*crt_farm_report_fn)(int32_t report, int32_t number, const char* why, void* user);
+
+/** Says where merged pictures go. */
+typedef struct crt_farm_merge_options {
+  uint32_t struct_size;
+  int32_t reserved; /**< 0 */
+  /** NULL: the pictures go into the job's folder. Else it is the path of the picture. For frames a
+   * run of # or a %04d in its name becomes the number, which else goes before the ending. */
+  const char* output;
+  const int32_t* skip; /**< frames to leave out, such as those that were merged before */
+  uint64_t skip_count;
+  crt_farm_report_fn report; /**< is called at the end, for all that was found */
+  void* report_user;
+  crt_poll_fn poll; /**< is asked between parts */
+  void* poll_user;
+} crt_farm_merge_options;
+
+/** Fills in the defaults, which are all 0. Since 1.1. */
+CRT_API crt_status crt_farm_merge_options_init(crt_farm_merge_options* options, size_t struct_size);
+
+/**
+ * Writes the pictures all of whose parts are there, and reports what is missing. It may be called
+ * again at any time. Working on refused tasks again replaces their parts. Since 1.1.
+ * @param options   NULL for the defaults
+ * @param complete  NULL, or gets 1 if no part was missing or refused, else 0
+ */
+CRT_API crt_status crt_farm_merge(const char* job, const crt_farm_merge_options* options,
+                                  int32_t* complete);
+
+/** Says how far a job is. Times are in seconds. */
+typedef struct crt_farm_progress {
+  uint32_t struct_size;
+  int32_t waiting;      /**< how many tasks nobody works on */
+  int32_t running;      /**< how many somebody works on, or did within the last minute */
+  int32_t lost;         /**< whose workers have not been heard of for over a minute */
+  int32_t done;         /**< whose parts are there */
+  int32_t reserved;     /**< 0 */
+  double share;         /**< of the work that is done, estimated, in [0, 1] */
+  double seconds_spent; /**< that all tasks done have taken together */
+  double seconds_left;  /**< estimated, for one worker */
+} crt_farm_progress;
+
+/** Reads how far a job is. `progress->struct_size` must be set. Since 1.1. */
+CRT_API crt_status crt_farm_status(const char* job, crt_farm_progress* progress);
+
+/** Says how far a task is. */
+typedef enum crt_farm_task_state {
+  CRT_FARM_TASK_WAITING = 0, /**< nobody works on it */
+  CRT_FARM_TASK_RUNNING,     /**< somebody does, or did within the last minute */
+  CRT_FARM_TASK_LOST,        /**< who began has not been heard of for over a minute */
+  CRT_FARM_TASK_DONE         /**< its part is there */
+} crt_farm_task_state;
+
+/** Is one task of a job. The layout is fixed for ever: 160 bytes. */
+typedef struct crt_farm_task {
+  int32_t state;    /**< a crt_farm_task_state */
+  int32_t reserved; /**< 0 */
+  double seconds;   /**< that rendering it took; 0 if it is not known */
+  double estimated; /**< the seconds that were planned for it, on one core */
+  double share;     /**< that is done, in [0, 1] */
+  char worker[128]; /**< the machine and process, cut at 127 bytes; "" if there is none */
+} crt_farm_task;
+
+/**
+ * Reads how far each task of a job is. Since 1.1.
+ * @param tasks  an array of `capacity` tasks; NULL if that is 0
+ * @param count  gets how many there are, which may be more than `capacity`; only so many are
+ *   written
+ */
+CRT_API crt_status crt_farm_tasks(const char* job, crt_farm_task* tasks, size_t capacity,
+                                  size_t* count);
+/**
+ * Makes a contact sheet of all that is there: the frames side by side, each at most `cell` pixels
+ * across, with transparent black where parts are missing. Since 1.1.
+ */
+CRT_API crt_status crt_farm_sheet(const char* job, int32_t cell, crt_image** out);
+
+/** @} */
+
 #ifdef __cplusplus
 }
 #endif

@@ -64,10 +64,11 @@ struct FarmPlan {
   bool has_channels = false;   ///< beside colours, so that they are EXR files
 };
 
-/// Makes a job of a script in a folder, which must not exist or be empty. It renders a small
-/// picture of some frames to see where time goes. A time budget is taken for what this machine does
-/// in that time with `render.threads`, and becomes a number of passes. Throws Error: script (the
-/// message has the diagnostics), io, invalid_argument, limit, cancelled, out_of_memory.
+/// Makes a job of a script in a folder, which must not exist or be empty, and is empty if planning
+/// fails. It renders a small picture of some frames to see where time goes. A time budget is taken
+/// for what this machine does in that time with `render.threads`, and becomes a number of passes.
+/// Throws Error: script (the message has the diagnostics), io, invalid_argument, limit, cancelled,
+/// out_of_memory.
 FarmPlan plan_farm(const std::filesystem::path& script, const std::filesystem::path& job,
                    const FarmOptions& options = {});
 
@@ -86,6 +87,10 @@ struct FarmWorkOptions {
 /// the same bytes whoever makes it. So any number of processes may work on one task. Throws Error:
 /// invalid_argument (no such task), io, script, cancelled, limit, out_of_memory.
 bool work_farm(const std::filesystem::path& job, int task, const FarmWorkOptions& options = {});
+
+/// Returns the name of a frame's picture. A run of '#' or a "%04d" in the file's name becomes the
+/// number (with that many digits at least). Where there is neither, _0001 goes before the ending.
+std::filesystem::path frame_path(const std::filesystem::path& output, int frame);
 
 /// FarmMergeOptions say where the pictures go.
 struct FarmMergeOptions {

@@ -15,6 +15,7 @@ of a wrong type is a TypeError that names it. help(crt.Material) and the like li
 values.
 """
 
+from . import farm
 from ._crossings import Crossings
 from ._library import version
 from ._version import __version__
@@ -129,6 +130,7 @@ __all__ = [
     "__version__",
     "camera_rays",
     "difference",
+    "farm",
     "intersection",
     "load_mesh",
     "ray",

@@ -28,6 +28,9 @@ CUSTOM_POINT = ctypes.CFUNCTYPE(
     ctypes.c_int, ctypes.c_void_p, ctypes.c_uint32, ctypes.c_void_p, ctypes.c_void_p
 )
 RELEASE = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+FARM_REPORT = ctypes.CFUNCTYPE(
+    None, ctypes.c_int32, ctypes.c_int32, ctypes.c_char_p, ctypes.c_void_p
+)
 
 # What stands for the types of crt.h.
 CALLBACKS: dict[str, Any] = {
@@ -39,6 +42,7 @@ CALLBACKS: dict[str, Any] = {
     "crt_custom_crossings_fn": CUSTOM_CROSSINGS,
     "crt_custom_point_fn": CUSTOM_POINT,
     "crt_release_fn": RELEASE,
+    "crt_farm_report_fn": FARM_REPORT,
 }
 
 _DEFAULT_HANDLER = signal.default_int_handler

@@ -417,4 +417,81 @@ FIELDS = {
         ("void* user", "is handed to the functions"),
         ("const char* name", "what messages call the solid; None: \"a custom shape\""),
     ),
+    "crt_farm_options": (
+        (
+            "int32_t has_frames",
+            "not 0: renders the whole t from first_frame to last_frame; 0: one picture, at the "
+            "script options' t",
+        ),
+        ("int32_t first_frame", "of an animation"),
+        ("int32_t last_frame", "is rendered, too"),
+        ("int32_t tasks", "in [1, 1000000]; 0: as many as last `least_seconds` each"),
+        (
+            "int32_t tile_width",
+            "pixels across of the tiles that pictures are cut into; 0: they are cut where that "
+            "makes the tasks' costs equal",
+        ),
+        ("int32_t tile_height", "pixels down; 0 if tile_width is"),
+        ("int32_t reserved", "0"),
+        ("double least_seconds", "that a task may take on one core; 0: 60"),
+        (
+            "const crt_script_options* script",
+            "None, or what the script gets. Of the limits max_steps alone counts. `print` and "
+            "`poll` are not called. allow_outside_files and open_file are "
+            "Status.INVALID_ARGUMENT, as the job has all files of the script.",
+        ),
+        (
+            "const crt_render_options* render",
+            "None, or what the tasks get: `seed`, `passes`, `max_ray_steps` and `aovs`. "
+            "Planning uses `threads` and `progress`, which is first 0 and never 1. A region and"
+            " a checkpoint are Status.INVALID_ARGUMENT.",
+        ),
+        ("uint64_t max_primitives", "see crt_prepare_options"),
+    ),
+    "crt_farm_job": (
+        ("int32_t tasks", "their numbers go from 0 to tasks - 1"),
+        ("int32_t has_frames", "1: it is an animation; 0: one picture"),
+        ("int32_t first_frame", "0 if it is one picture"),
+        ("int32_t last_frame", ""),
+        ("int32_t width", "of the pictures"),
+        ("int32_t height", ""),
+        ("int32_t passes", "see crt_render_options; a time budget becomes such a number"),
+        (
+            "int32_t has_channels",
+            "1: there are channels beside the colours, so that pictures are EXR",
+        ),
+        ("int32_t reserved", "0"),
+        ("double seconds", "estimated, of one core, for all tasks"),
+        ("double longest_seconds", "estimated, for the task that takes longest"),
+    ),
+    "crt_farm_work_options": (
+        ("int32_t threads", "at most; 0: what the calling TBB arena has"),
+        ("crt_progress_fn progress", "gets the share of the task that is done"),
+        ("void* progress_user", ""),
+    ),
+    "crt_farm_merge_options": (
+        ("int32_t reserved", "0"),
+        (
+            "const char* output",
+            "None: the pictures go into the job's folder. Else it is the path of the picture. "
+            "For frames a run of # or a %04d in its name becomes the number, which else goes "
+            "before the ending.",
+        ),
+        ("const int32_t* skip", "frames to leave out, such as those that were merged before"),
+        ("uint64_t skip_count", ""),
+        ("crt_farm_report_fn report", "is called at the end, for all that was found"),
+        ("void* report_user", ""),
+        ("crt_poll_fn poll", "is asked between parts"),
+        ("void* poll_user", ""),
+    ),
+    "crt_farm_progress": (
+        ("int32_t waiting", "how many tasks nobody works on"),
+        ("int32_t running", "how many somebody works on, or did within the last minute"),
+        ("int32_t lost", "whose workers have not been heard of for over a minute"),
+        ("int32_t done", "whose parts are there"),
+        ("int32_t reserved", "0"),
+        ("double share", "of the work that is done, estimated, in [0, 1]"),
+        ("double seconds_spent", "that all tasks done have taken together"),
+        ("double seconds_left", "estimated, for one worker"),
+    ),
 }

@@ -56,14 +56,9 @@ def make_options(
     )
     if region is not None:
         _set_region(options, region)
-    for name, callback in (("progress", progress), ("log", log)):
-        is_switch = name == "progress" and isinstance(callback, bool)
-        if callback is not None and not is_switch and not callable(callback):
-            expected = "a function, or True" if name == "progress" else "a function"
-            raise _arguments.refusal(f"render: {name}", expected, callback)
-    # There is always one, which sees Ctrl-C and what the other has raised.
-    tell_progress = _progress_function(guard, progress)
-    options.progress = PROGRESS(lambda fraction, _user: guard.call(tell_progress, fraction))
+    if log is not None and not callable(log):
+        raise _arguments.refusal("render: log", "a function", log)
+    options.progress = progress_callback(guard, progress, "render: progress")
 
     def tell(line: bytes) -> None:
         if log is not None:
@@ -71,6 +66,15 @@ def make_options(
 
     options.log = LOG(lambda _level, line, _user: guard.call(tell, line))
     return options
+
+
+def progress_callback(guard: Guard, progress: Progress | None, name: str) -> Any:
+    """Returns what the library calls. There is always such a callback, which sees Ctrl-C and what
+    others have raised."""
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        raise _arguments.refusal(name, "a function, or True", progress)
+    tell = _progress_function(guard, progress)
+    return PROGRESS(lambda fraction, _user: guard.call(tell, fraction))
 
 
 def _progress_function(guard: Guard, progress: Progress | None) -> Callable[[float], int | None]:

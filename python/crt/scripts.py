@@ -19,11 +19,34 @@ OpenFile = Callable[[str], bytes | None]
 
 
 @growable("crt_script_options", shown="a script")
-class _ScriptOptions(Struct):
-    """_ScriptOptions say what a script may see and use."""
+class ScriptOptions(Struct):
+    """ScriptOptions say what a script may see and use."""
 
 
-LIMITS = [name for name in _ScriptOptions._kinds if name.startswith("max_")]
+LIMITS = [name for name in ScriptOptions._kinds if name.startswith("max_")]
+
+
+def make_options(
+    *,
+    variables: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    t: float,
+    compat: int,
+    resource_directories: Iterable[Path],
+    limits: Mapping[str, int],
+) -> ScriptOptions:
+    """Returns the struct, without callbacks."""
+    for limit in limits:
+        if limit not in LIMITS:
+            raise TypeError(f"a script has no argument {limit!r}; limits are {', '.join(LIMITS)}")
+    options = ScriptOptions(t=t, compat=compat, **limits)
+    options.set(**_pairs("variable", variables), **_pairs("setting", settings))
+    if isinstance(resource_directories, (str, os.PathLike)):
+        resource_directories = (resource_directories,)
+    directories = [_arguments.text(one, "resource_directories") for one in resource_directories]
+    options.resource_directories = texts(directories)
+    options.resource_directory_count = len(directories)
+    return options
 
 
 def run(
@@ -42,17 +65,16 @@ def run(
 ) -> tuple[int, list[Diagnostic]]:
     """Runs a text, or the file that is named if there is none. Returns the handle of the scene, and
     the warnings."""
-    for limit in limits:
-        if limit not in LIMITS:
-            raise TypeError(f"a script has no argument {limit!r}; limits are {', '.join(LIMITS)}")
     guard = Guard()
-    options = _ScriptOptions(t=t, compat=compat, allow_outside_files=allow_outside_files, **limits)
-    options.set(**_pairs("variable", variables), **_pairs("setting", settings))
-    if isinstance(resource_directories, (str, os.PathLike)):
-        resource_directories = (resource_directories,)
-    directories = [_arguments.text(one, "resource_directories") for one in resource_directories]
-    options.resource_directories = texts(directories)
-    options.resource_directory_count = len(directories)
+    options = make_options(
+        variables=variables,
+        settings=settings,
+        t=t,
+        compat=compat,
+        resource_directories=resource_directories,
+        limits=limits,
+    )
+    options.allow_outside_files = allow_outside_files
     options.poll = POLL(lambda _user: guard.call(_nothing))
     if print is not None:
         options.print = _print_callback(guard, print)
@@ -62,7 +84,7 @@ def run(
         return _call(script, name, options)
 
 
-def _call(script: str | None, name: Path, options: _ScriptOptions) -> tuple[int, list[Diagnostic]]:
+def _call(script: str | None, name: Path, options: ScriptOptions) -> tuple[int, list[Diagnostic]]:
     said = ctypes.c_void_p()
     rest = ctypes.byref(options), ctypes.byref(said)
     try:

@@ -51,6 +51,12 @@ template <>
 crt_diagnostic defaults<crt_diagnostic>();
 template <>
 crt_diagnostic_call defaults<crt_diagnostic_call>();
+template <>
+crt_farm_options defaults<crt_farm_options>();
+template <>
+crt_farm_work_options defaults<crt_farm_work_options>();
+template <>
+crt_farm_merge_options defaults<crt_farm_merge_options>();
 
 inline constexpr std::size_t size_field = sizeof(std::uint32_t);
 /// No struct will ever be larger than this. A larger size is a mistake.

@@ -21,6 +21,18 @@ Aovs to_aovs(std::uint32_t bits) {
           .error = (bits & CRT_AOV_ERROR) != 0};
 }
 
+}  // namespace
+
+std::function<bool(double)> to_progress(crt_progress_fn call, void* user,
+                                        const CancelValue& cancel_value) {
+  if (call == nullptr) return {};
+  return [call, user, cancel_value](double fraction) {
+    const int answer = call(fraction, user);
+    if (answer != 0) *cancel_value = answer;
+    return answer == 0;
+  };
+}
+
 RenderOptions to_options(const crt_render_options* options, const CancelValue& cancel_value) {
   const auto given = taken_or_default(options, "options");
   RenderOptions result;
@@ -34,14 +46,7 @@ RenderOptions to_options(const crt_render_options* options, const CancelValue& c
   result.aovs = to_aovs(given.aovs);
   result.max_ray_steps = given.max_ray_steps;
   if (given.checkpoint != nullptr) result.checkpoint = given.checkpoint;
-  if (given.progress != nullptr) {
-    result.progress = [call = given.progress, user = given.progress_user,
-                       cancel_value](double fraction) {
-      const int answer = call(fraction, user);
-      if (answer != 0) *cancel_value = answer;
-      return answer == 0;
-    };
-  }
+  result.progress = to_progress(given.progress, given.progress_user, cancel_value);
   if (given.log != nullptr) {
     result.log = [call = given.log, user = given.log_user](LogLevel level, std::string_view line) {
       call(level == LogLevel::warning ? CRT_LOG_WARNING : CRT_LOG_INFO, std::string(line).c_str(),
@@ -51,21 +56,12 @@ RenderOptions to_options(const crt_render_options* options, const CancelValue& c
   return result;
 }
 
-CancelValue new_cancel_value() {
-  return std::make_shared<std::atomic<int>>(0);
-}
-
-}  // namespace
-
 }  // namespace crt::capi
 
 using namespace crt::capi;
 
 crt_status crt_render(crt_prepared* prepared, const crt_render_options* options, crt_image** out) {
-  CancelValue cancel_value;
-  const crt_status ready = guarded([&] { cancel_value = new_cancel_value(); });
-  if (ready != CRT_OK) return ready;
-  return guarded(*cancel_value, [&] {
+  return guarded_with_cancel([&](const CancelValue& cancel_value) {
     require(prepared, "prepared");
     require(out, "out");
     *out = new crt_image(crt::render(prepared->value, to_options(options, cancel_value)));

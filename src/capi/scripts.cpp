@@ -71,6 +71,8 @@ void take_callbacks(ScriptOptions& options, const crt_script_options& given) {
   }
 }
 
+}  // namespace
+
 ScriptOptions to_options(const crt_script_options* options) {
   const auto given = taken_or_default(options, "options");
   ScriptOptions result;
@@ -98,6 +100,8 @@ ScriptOptions to_options(const crt_script_options* options) {
   result.compat = given.compat;
   return result;
 }
+
+namespace {
 
 /// Returns what kind of error a script has. A value in it that is out of range is no wrong argument
 /// of the C caller.

@@ -227,6 +227,55 @@ std::span<const std::size_t> field_ends<crt_write_options>() {
   return ends;
 }
 
+template <>
+std::span<const std::size_t> field_ends<crt_farm_options>() {
+  using S = crt_farm_options;
+  static constexpr std::array ends = {
+      CRT_END(S, has_frames), CRT_END(S, first_frame),   CRT_END(S, last_frame),
+      CRT_END(S, tasks),      CRT_END(S, tile_width),    CRT_END(S, tile_height),
+      CRT_END(S, reserved),   CRT_END(S, least_seconds), CRT_END(S, script),
+      CRT_END(S, render),     CRT_END(S, max_primitives)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_farm_job>() {
+  using S = crt_farm_job;
+  static constexpr std::array ends = {
+      CRT_END(S, tasks),      CRT_END(S, has_frames),     CRT_END(S, first_frame),
+      CRT_END(S, last_frame), CRT_END(S, width),          CRT_END(S, height),
+      CRT_END(S, passes),     CRT_END(S, has_channels),   CRT_END(S, reserved),
+      CRT_END(S, seconds),    CRT_END(S, longest_seconds)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_farm_work_options>() {
+  using S = crt_farm_work_options;
+  static constexpr std::array ends = {CRT_END(S, threads), CRT_END(S, progress),
+                                      CRT_END(S, progress_user)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_farm_merge_options>() {
+  using S = crt_farm_merge_options;
+  static constexpr std::array ends = {
+      CRT_END(S, reserved), CRT_END(S, output),      CRT_END(S, skip), CRT_END(S, skip_count),
+      CRT_END(S, report),   CRT_END(S, report_user), CRT_END(S, poll), CRT_END(S, poll_user)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_farm_progress>() {
+  using S = crt_farm_progress;
+  static constexpr std::array ends = {CRT_END(S, waiting),       CRT_END(S, running),
+                                      CRT_END(S, lost),          CRT_END(S, done),
+                                      CRT_END(S, reserved),      CRT_END(S, share),
+                                      CRT_END(S, seconds_spent), CRT_END(S, seconds_left)};
+  return ends;
+}
+
 // The defaults of these structs are all 0.
 template <>
 crt_script_options defaults<crt_script_options>() {
@@ -242,6 +291,18 @@ crt_prepare_options defaults<crt_prepare_options>() {
 }
 template <>
 crt_write_options defaults<crt_write_options>() {
+  return {};
+}
+template <>
+crt_farm_options defaults<crt_farm_options>() {
+  return {};
+}
+template <>
+crt_farm_work_options defaults<crt_farm_work_options>() {
+  return {};
+}
+template <>
+crt_farm_merge_options defaults<crt_farm_merge_options>() {
   return {};
 }
 
@@ -295,4 +356,16 @@ crt_status crt_prepare_options_init(crt_prepare_options* options, size_t struct_
 
 crt_status crt_write_options_init(crt_write_options* options, size_t struct_size) {
   return guarded([&] { initialise(options, struct_size, defaults<crt_write_options>()); });
+}
+
+crt_status crt_farm_options_init(crt_farm_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_farm_options>()); });
+}
+
+crt_status crt_farm_work_options_init(crt_farm_work_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_farm_work_options>()); });
+}
+
+crt_status crt_farm_merge_options_init(crt_farm_merge_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_farm_merge_options>()); });
 }

@@ -7,6 +7,7 @@
 #include "crt/camera.hpp"
 #include "crt/light.hpp"
 #include "crt/material.hpp"
+#include "crt/render.hpp"
 #include "crt/settings.hpp"
 #include "crt/stats.hpp"
 
@@ -18,6 +19,24 @@ crt_status create(crt_entity** out, const Make& make) {
   return guarded([&] {
     require(out, "out");
     *out = new crt_entity(make());
+  });
+}
+
+inline CancelValue new_cancel_value() {
+  return std::make_shared<std::atomic<int>>(0);
+}
+
+/// Runs a body that a callback may cancel. The body gets what is to keep the callback's number.
+template <class Body>
+crt_status guarded_with_cancel(const Body& body) {
+  return guarded([&] {
+    const CancelValue cancel_value = new_cancel_value();
+    try {
+      body(cancel_value);
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::cancelled) set_cancel_value(*cancel_value);
+      throw;
+    }
   });
 }
 
@@ -45,6 +64,13 @@ Light to_light(const crt_light* light);
 Camera to_camera(const crt_camera* camera);
 Background to_background(const crt_background* background);
 Settings to_settings(const crt_settings* settings);
+// NULL stands for the defaults here.
+ScriptOptions to_options(const crt_script_options* options);
+RenderOptions to_options(const crt_render_options* options, const CancelValue& cancel_value);
+
+/// Makes what a progress callback is called through, which keeps the number that it stops with.
+std::function<bool(double)> to_progress(crt_progress_fn call, void* user,
+                                        const CancelValue& cancel_value);
 
 // These convert back. The texts stay where they are, in the settings.
 crt_light to_c(const Light& light);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <crt/farm.hpp>
 #include <crt/file.hpp>
 #include <crt/image.hpp>
 #include <utility>

@@ -37,6 +37,8 @@ void check(const FarmOptions& options) {
             "a tile has a width and a height");
   refuse_if(options.script.allow_outside_files, "allow_outside_files",
             "a job's script reads files of its own folder and of resource folders alone");
+  refuse_if(options.script.open_file != nullptr, "open_file",
+            "a job's files come from the file system: its planner calls no open_file");
   refuse_if(options.render.region.has_value(), "region", "a job is of whole pictures");
   refuse_if(!options.render.checkpoint.empty(), "checkpoint", "a job has parts, and no checkpoint");
   refuse_if(options.render.passes < 0, "passes", "passes must not be negative");
@@ -62,6 +64,13 @@ void make_folders(const fs::path& folder) {
     throw Error(ErrorCode::io, fmt::format("cannot make the folder '{}': {}",
                                            error.path1().string(), error.code().message()));
   }
+}
+
+/// Leaves the folder of a job that could not be planned empty, so that it may be planned again.
+void remove_folders(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* inside : {contents_folder, parts_folder, log_folder, manifest_name})
+    fs::remove_all(folder / inside, ignored);
 }
 
 Manifest manifest_of(const fs::path& script, const FarmOptions& options) {
@@ -218,7 +227,12 @@ FarmPlan plan_farm(const std::filesystem::path& script, const std::filesystem::p
                    const FarmOptions& options) {
   farm::check(options);
   farm::make_folders(job);
-  return farm::Planner(script, job, options).plan();
+  try {
+    return farm::Planner(script, job, options).plan();
+  } catch (...) {
+    farm::remove_folders(job);
+    throw;
+  }
 }
 
 }  // namespace crt

@@ -85,8 +85,8 @@ namespace crt {
 
 Image farm_sheet(const std::filesystem::path& job, int cell) {
   if (cell < 1) {
-    throw Error(ErrorCode::invalid_argument, "a frame on the sheet has at least one pixel across",
-                "cell");
+    throw Error(ErrorCode::invalid_argument,
+                "the cell of a frame on the sheet must be at least one pixel across", "cell");
   }
   const farm::Job opened = farm::open_job(job);
   farm::Sheet sheet(opened.manifest, {opened.manifest, cell});

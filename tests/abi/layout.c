@@ -1,18 +1,10 @@
 // This is the layout of what crt.h declares, on every machine where pointers and size_t have 64
 // bits. It is written down once, and never changes. A version that appends a field adds its line
 // here and corrects the size.
-#include <crt/crt.h>
 #include <stdio.h>
 #include <string.h>
 
-#if UINTPTR_MAX != UINT64_MAX
-#error "the numbers below are those of LP64"
-#endif
-
-#define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), "the size of " #type)
-#define AT(type, field, bytes) \
-  _Static_assert(offsetof(type, field) == (bytes), "the place of " #type "." #field)
-#define VALUE(name, number) _Static_assert((name) == (number), "the value of " #name)
+#include "layout.h"
 
 SIZE(crt_pattern, 208);
 AT(crt_pattern, struct_size, 0);

@@ -38,6 +38,11 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_custom_init(&custom, sizeof custom);
   const double heights[4] = {0.5, 1, 0, 0.25};
   const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
+  crt_farm_job planned;
+  planned.struct_size = sizeof planned;
+  crt_farm_merge_options merge;
+  crt_farm_merge_options_init(&merge, sizeof merge);
+  merge.skip_count = 1;
   const std::vector<crt_blob_part> many_parts(1025, blob_part);
 
   check_all({
@@ -187,6 +192,21 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"ray", [&] { return crt_crossings(prepared.get(), nullptr, &hit, 1, &count); }},
       {"hits", [&] { return crt_crossings(prepared.get(), &ray, nullptr, 1, &count); }},
       {"count", [&] { return crt_crossings(prepared.get(), &ray, &hit, 1, nullptr); }},
+      {"script", [&] { return crt_farm_plan(nullptr, "j", nullptr, &planned); }},
+      {"job", [&] { return crt_farm_plan("s", nullptr, nullptr, &planned); }},
+      {"plan", [&] { return crt_farm_plan("s", "j", nullptr, nullptr); }},
+      {"job", [&] { return crt_farm_read_plan(nullptr, &planned); }},
+      {"job", [&] { return crt_farm_work(nullptr, 0, nullptr, nullptr); }},
+      {"job", [&] { return crt_farm_merge(nullptr, nullptr, nullptr); }},
+      {"skip", [&] { return crt_farm_merge("j", &merge, nullptr); }},
+      {"job", [&] { return crt_farm_status(nullptr, nullptr); }},
+      {"progress", [&] { return crt_farm_status("j", nullptr); }},
+      {"job", [&] { return crt_farm_tasks(nullptr, nullptr, 0, &count); }},
+      {"tasks", [&] { return crt_farm_tasks("j", nullptr, 1, &count); }},
+      {"count", [&] { return crt_farm_tasks("j", nullptr, 0, nullptr); }},
+      {"job", [&] { return crt_farm_sheet(nullptr, 9, &made_image); }},
+      {"out", [&] { return crt_farm_sheet("j", 9, nullptr); }},
+      {"cell", [&] { return crt_farm_sheet("j", 0, &made_image); }},
   });
   CHECK(entity == nullptr);
   CHECK(made_scene == nullptr);

@@ -5,21 +5,20 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "fuzz_custom.hpp"
+#include "fuzz_farm.hpp"
 #include "fuzz_input.hpp"
 
 namespace {
 
+using crt::test::ask_farm;
 using crt::test::Input;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using crt::test::require;
+using crt::test::scrambled;
 
 /// Slots hold a few handles of one kind. The newest takes the place of the oldest.
 template <class Handle, auto release>
@@ -73,15 +72,6 @@ class Session {
   void use_prepared();
   void ask_rays();
   void use_image();
-
-  /// Makes a struct with its defaults and some of its bytes changed.
-  template <class Struct, class Init>
-  Struct scrambled(const Init& init) {
-    Struct result;
-    init(&result, sizeof result);
-    if (input_.below(8) == 0) result.struct_size = input_.raw<std::uint16_t>();
-    return result;
-  }
 
   Input input_;
   Slots<crt_entity, crt_entity_release> entities_;
@@ -165,7 +155,7 @@ void Session::make_primitive() {
       case 16:
         return crt_superellipsoid_create(r, s, out);
       case 17: {
-        auto custom = scrambled<crt_custom>(crt_custom_init);
+        auto custom = scrambled<crt_custom>(input_, crt_custom_init);
         crt::test::describe_any(input_, a, b, custom);
         return crt_custom_create(&custom, out);
       }
@@ -222,8 +212,8 @@ void Session::dress() {
       });
       break;
     default: {
-      auto material = scrambled<crt_material>(crt_material_init);
-      auto pattern = scrambled<crt_pattern>(crt_pattern_init);
+      auto material = scrambled<crt_material>(input_, crt_material_init);
+      auto pattern = scrambled<crt_pattern>(input_, crt_pattern_init);
       crt_pattern_init_type(&pattern, sizeof pattern,
                             static_cast<std::int32_t>(input_.below(9)) - 1);
       pattern.scale = input_.number();
@@ -250,7 +240,7 @@ void Session::dress() {
 
 void Session::edit_settings() {
   crt_scene* const scene = scenes_.any(input_);
-  auto settings = scrambled<crt_settings>(crt_settings_init);
+  auto settings = scrambled<crt_settings>(input_, crt_settings_init);
   settings.width = static_cast<std::int32_t>(input_.below(12)) - 1;
   settings.height = static_cast<std::int32_t>(input_.below(12)) - 1;
   settings.supersampling = static_cast<std::int32_t>(input_.below(3));
@@ -274,7 +264,7 @@ void Session::edit_scene() {
       if (crt_scene_entity_count(scene) < 8) crt_scene_add_entity(scene, entities_.any(input_));
       break;
     case 2: {
-      auto light = scrambled<crt_light>(crt_light_init);
+      auto light = scrambled<crt_light>(input_, crt_light_init);
       crt_light_init_type(&light, sizeof light, static_cast<std::int32_t>(input_.below(6)) - 1);
       light.origin[0] = input_.number();
       light.falloff = input_.number();
@@ -285,7 +275,7 @@ void Session::edit_scene() {
       break;
     }
     case 3: {
-      auto camera = scrambled<crt_camera>(crt_camera_init);
+      auto camera = scrambled<crt_camera>(input_, crt_camera_init);
       camera.projection = static_cast<std::int32_t>(input_.below(6)) - 1;
       camera.position[2] = input_.number();
       camera.fov = input_.number();
@@ -295,7 +285,7 @@ void Session::edit_scene() {
       break;
     }
     case 4: {
-      auto background = scrambled<crt_background>(crt_background_init);
+      auto background = scrambled<crt_background>(input_, crt_background_init);
       background.type = static_cast<std::int32_t>(input_.below(7)) - 1;
       background.color[0] = input_.number();
       background.image = images_.any(input_);
@@ -316,7 +306,7 @@ void Session::edit_scene() {
 
 void Session::run_script() {
   const std::string text = input_.text();
-  auto options = scrambled<crt_script_options>(crt_script_options_init);
+  auto options = scrambled<crt_script_options>(input_, crt_script_options_init);
   options.max_steps = 1000;
   options.max_entities = 100;
   options.open_file = [](const char*, crt_file_content* content, void*) -> int {
@@ -371,7 +361,7 @@ void Session::ask_rays() {
 
 void Session::use_prepared() {
   crt_prepared* const prepared = prepared_.any(input_);
-  auto options = scrambled<crt_render_options>(crt_render_options_init);
+  auto options = scrambled<crt_render_options>(input_, crt_render_options_init);
   options.threads = 1;
   options.region_width = static_cast<std::int32_t>(input_.below(5));
   options.region_height = static_cast<std::int32_t>(input_.below(5));
@@ -423,7 +413,8 @@ void Session::call(std::uint32_t which) {
         [&](crt_prepared** out) { return crt_scene_prepare(scenes_.any(input_), out); });
   }
   if (which < 29) return use_prepared();
-  if (which < 31) return use_image();
+  if (which < 30) return use_image();
+  if (which < 31) return images_.make([&](crt_image** out) { return ask_farm(input_, out); });
   run_script();
 }
 

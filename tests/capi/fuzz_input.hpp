@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -59,5 +60,18 @@ class Input {
   const std::uint8_t* data_;
   std::size_t size_;
 };
+
+/// Makes a struct with its defaults, sometimes of a wrong size.
+template <class Struct, class Init>
+Struct scrambled(Input& input, const Init& init) {
+  Struct result;
+  init(&result, sizeof result);
+  if (input.below(8) == 0) result.struct_size = input.raw<std::uint16_t>();
+  return result;
+}
+
+inline void require(bool holds) {
+  if (!holds) std::abort();
+}
 
 }  // namespace crt::test

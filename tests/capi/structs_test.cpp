@@ -83,6 +83,9 @@ TEST_CASE("initialising writes the defaults and nothing behind the size that was
   check_init<crt_script_options>(crt_script_options_init);
   check_init<crt_render_options>(crt_render_options_init);
   check_init<crt_write_options>(crt_write_options_init);
+  check_init<crt_farm_options>(crt_farm_options_init);
+  check_init<crt_farm_work_options>(crt_farm_work_options_init);
+  check_init<crt_farm_merge_options>(crt_farm_merge_options_init);
 }
 
 TEST_CASE("a struct without a size is an error that says so") {

@@ -11,7 +11,7 @@ from pathlib import Path
 from support import SOURCE
 
 import crt
-from crt import _library, _structs, diagnostics, images, options, scenes, scripts, values
+from crt import _library, _structs, diagnostics, farm, images, options, scenes, scripts, values
 from crt._fields import FIELDS
 from crt._functions import FUNCTIONS
 
@@ -109,7 +109,7 @@ class Structs(unittest.TestCase):
                 yield re.search(r"(\w+)(\[\d\])?$", declaration)[1], declaration
 
     def test_their_fields_are_those_of_the_header_in_its_order(self):
-        modules = diagnostics, images, options, scenes, scripts, values
+        modules = diagnostics, farm, images, options, scenes, scripts, values
         structs = {
             thing
             for module in modules
@@ -118,7 +118,7 @@ class Structs(unittest.TestCase):
             and issubclass(thing, _structs.Struct)
             and thing is not _structs.Struct
         }
-        self.assertEqual(len(structs), 13)
+        self.assertEqual(len(structs), 18)
         for struct in structs:
             (first, _), *fields = self.fields_of(struct._name)
             self.assertEqual(first, "struct_size")
@@ -139,6 +139,7 @@ class Structs(unittest.TestCase):
             "crt_pixel_filter": crt.PixelFilter,
             "crt_falloff_model": crt.FalloffModel,
             "crt_precision": crt.Precision,
+            "crt_farm_task_state": farm.TaskState,
         }
         for name, ours in pairs.items():
             body = re.search(rf"typedef enum {name} \{{(.*?)\}} {name};", HEADER, re.DOTALL)[1]
@@ -177,3 +178,7 @@ class Structs(unittest.TestCase):
             [crt.HIT.fields[name][1] for name in ("t", "normal", "u", "v", "entity_id", "flags")],
             [0, 8, 32, 40, 48, 52],
         )
+        self.assertEqual(farm._TASK.itemsize, 160)
+        self.assertEqual([farm._TASK.fields[name][1] for name in farm._TASK.names], [
+            0, 4, 8, 16, 24, 32
+        ])
