@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "cli/process.hpp"
+
 namespace crt::cli {
 
 namespace {
@@ -13,11 +15,6 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
        at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
-}
-
-/// Returns a word between single quotes, as bash and zsh read it.
-std::string quoted(const std::string& text) {
-  return "'" + replaced(text, "'", R"('\'')") + "'";
 }
 
 std::vector<std::string> option_names(const CommandDescription& command) {
@@ -105,8 +102,8 @@ std::string zsh_option(const OptionDescription& option) {
           ? ""
           : fmt::format(":{}:{}", replaced(option.type, ":", R"(\:)"), zsh_action(option.type));
   if (option.names.empty()) {
-    return quoted(fmt::format("{}:{}:{}", option.repeatable ? "*" : "1", zsh_help(option.help),
-                              zsh_action(option.type)));
+    return shell_quoted(fmt::format("{}:{}:{}", option.repeatable ? "*" : "1",
+                                    zsh_help(option.help), zsh_action(option.type)));
   }
   // An option that was given is not offered again, and neither are its other names.
   const std::string once =
@@ -115,7 +112,7 @@ std::string zsh_option(const OptionDescription& option) {
   for (const std::string& name : option.names) {
     if (!words.empty()) words += " \\\n        ";
     const char* const joint = option.type.empty() ? "" : name.starts_with("--") ? "=" : "+";
-    words += quoted(fmt::format("{}{}{}{}{}", once, name, joint, help, value));
+    words += shell_quoted(fmt::format("{}{}{}{}{}", once, name, joint, help, value));
   }
   return words;
 }
@@ -196,7 +193,8 @@ _crt() {
   commands=(
 )";
   for (const CommandDescription& command : all.commands)
-    text += "    " + quoted(command.name + ":" + replaced(command.about, ":", R"(\:)")) + "\n";
+    text +=
+        "    " + shell_quoted(command.name + ":" + replaced(command.about, ":", R"(\:)")) + "\n";
   text += "  )\n  _arguments -C";
   for (const OptionDescription& option : all.main.options) text += " \\\n    " + zsh_option(option);
   text += R"( \

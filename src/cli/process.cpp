@@ -83,4 +83,10 @@ std::string this_program() {
   return failed ? "crt" : path.string();
 }
 
+std::string shell_quoted(const std::string& word) {
+  std::string result = "'";
+  for (const char c : word) c == '\'' ? result += R"('\'')" : result += c;
+  return result + "'";
+}
+
 }  // namespace crt::cli

@@ -27,4 +27,7 @@ Answer ask_program(const std::vector<std::string>& words);
 /// Returns the path of this program.
 std::string this_program();
 
+/// Returns a word between single quotes, as shells read it.
+std::string shell_quoted(const std::string& word);
+
 }  // namespace crt::cli

@@ -18,13 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns a word as a shell takes it for itself.
-std::string quoted(const std::string& word) {
-  std::string result = "'";
-  for (const char c : word) c == '\'' ? result += "'\\''" : result += c;
-  return result + "'";
-}
-
 /// Returns how many tasks an array job may have. Slurm takes this number for the first too many.
 int most_in_array() {
   constexpr int usual = 1000;
@@ -68,7 +61,7 @@ class Slurm {
     write_file(job_ / "log/tasks.txt", fmt::format("{}\n", fmt::join(driving_.tasks, "\n")));
     const std::string work =
         fmt::format("{} farm work {} --quiet --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"",
-                    quoted(this_program()), quoted(job_.string()));
+                    shell_quoted(this_program()), shell_quoted(job_.string()));
     write_file(job_ / "log/work.sh",
                fmt::format("#!/bin/sh\n"
                            "# crt farm submit --slurm wrote this script: it works on tasks of a "
@@ -79,15 +72,16 @@ class Slurm {
                            "  {} --task \"$task\" || failed=1\n"
                            "done\n"
                            "exit $failed\n",
-                           elements_, quoted((job_ / "log/tasks.txt").string()), work));
+                           elements_, shell_quoted((job_ / "log/tasks.txt").string()), work));
     const fs::path& output = driving_.request.output;
-    write_file(job_ / "log/merge.sh",
-               fmt::format("#!/bin/sh\n"
-                           "# crt farm submit --slurm wrote this script: it merges the pictures of "
-                           "a job.\n"
-                           "exec {} farm merge {}{}\n",
-                           quoted(this_program()), quoted(job_.string()),
-                           output.empty() ? "" : " -o " + quoted(fs::absolute(output).string())));
+    write_file(
+        job_ / "log/merge.sh",
+        fmt::format("#!/bin/sh\n"
+                    "# crt farm submit --slurm wrote this script: it merges the pictures of "
+                    "a job.\n"
+                    "exec {} farm merge {}{}\n",
+                    shell_quoted(this_program()), shell_quoted(job_.string()),
+                    output.empty() ? "" : " -o " + shell_quoted(fs::absolute(output).string())));
   }
 
   /// Submits a script, and returns the number of the job.
@@ -99,7 +93,7 @@ class Slurm {
     words.insert(words.end(), more.begin(), more.end());
     words.push_back((job_ / "log" / script).string());
     const Answer answer = ask_program(words);
-    const std::string id = answer.text.substr(0, answer.text.find_first_of(";\n"));
+    std::string id = answer.text.substr(0, answer.text.find_first_of(";\n"));
     if (!answer.succeeded || id.empty())
       throw Error(ErrorCode::io, "Slurm did not take the job; sbatch says why");
     return id;

@@ -237,7 +237,7 @@ std::string Interpreter::how_to_call(const MacroValue& macro, Span span) const {
 void Interpreter::emit_entity(const Entity& entity, Span span) {
   if (emission_.into_scene) {
     context_.count_emitted(span, std::max<std::uint64_t>(entity.primitive_count(), 1));
-    entity_spans_.push_back({statement_, span});
+    entity_spans_.emplace_back(statement_, span);
   } else {
     context_.count_made(span);
   }

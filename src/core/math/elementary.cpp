@@ -346,14 +346,12 @@ double atan2(double y, double x) {
   double width = std::abs(x);
   const bool is_behind = std::signbit(x);
   double angle = 0;
-  if (height == 0) {
-    angle = is_behind ? 2 * half_pi : 0;
-  } else if (height == infinity && width == infinity) {
+  if (height == infinity && width == infinity) {
     angle = is_behind ? 1.5 * half_pi : 0.5 * half_pi;
+  } else if (height == 0 || width == infinity) {
+    angle = is_behind ? 2 * half_pi : 0;
   } else if (width == 0 || height == infinity) {
     angle = half_pi;
-  } else if (width == infinity) {
-    angle = is_behind ? 2 * half_pi : 0;
   } else {
     constexpr int far_apart = 120;
     const int exponent = std::ilogb(width);
