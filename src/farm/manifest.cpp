@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr int format_version = 1;
-constexpr std::size_t most_bytes = std::size_t{32} << 20;
+constexpr std::size_t most_manifest_bytes = std::size_t{32} << 20;
 constexpr int most_depth = 6;
 
 constexpr std::pair<const char*, bool Aovs::*> aov_names[] = {
@@ -241,7 +241,7 @@ std::string to_text(const Manifest& manifest) {
 }
 
 Manifest parse_manifest(std::string_view text) {
-  if (text.size() > most_bytes) fail("it is too long");
+  if (text.size() > most_manifest_bytes) fail("it is too long");
   try {
     const auto refuse_depth = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
       if (depth > most_depth) fail("it is nested too deeply");
@@ -264,7 +264,8 @@ fs::path Job::content_file(const std::string& hash) const {
 }
 
 Job open_job(const fs::path& folder) {
-  const std::vector<std::byte> bytes = core::read_whole_file(folder / manifest_name, most_bytes);
+  const std::vector<std::byte> bytes =
+      core::read_whole_file(folder / manifest_name, most_manifest_bytes);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   try {
     return {.folder = folder, .id = core::sha256(bytes), .manifest = parse_manifest(text)};

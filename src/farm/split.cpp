@@ -215,7 +215,9 @@ double CostMap::of(const Region& region) const {
     const double down = std::min(bottom, row + 1.0) - std::max(top, double{1} * row);
     for (int column = static_cast<int>(left); column < columns && column < right; ++column) {
       const double across = std::min(right, column + 1.0) - std::max(left, double{1} * column);
-      sum += down * across * seconds[static_cast<std::size_t>(row * columns + column)];
+      sum += down * across *
+             seconds[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(column)];
     }
   }
   return sum;
