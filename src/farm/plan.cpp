@@ -113,6 +113,7 @@ class Planner {
     const auto [first, last] = frames_of(job_.manifest);
     std::vector<const CostMap*> frames;
     std::vector<CostMap> between = maps_between(probed, first, last);
+    frames.reserve(between.size());
     for (const CostMap& map : between) frames.push_back(&map);
     job_.manifest.tasks = split(frames, first, shape(frames));
     job_.manifest.files = files_.hashes();

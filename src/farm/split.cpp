@@ -103,6 +103,7 @@ void add_frame(const CostMap& map, int frame, std::span<const TaskShare> takers,
       std::swap(order[order.size() - i], order[order.size() - 1 - random() % i]);
   }
   std::vector<double> shares;
+  shares.reserve(order.size());
   for (const TaskShare& taker : order) shares.push_back(taker.share);
   std::vector<Region> pieces;
   cut(map, all, shares, pieces);
