@@ -13,6 +13,7 @@
 #include "core/geometry/shape.hpp"
 #include "geometry/random.hpp"
 #include "oracle/line_polynomial.hpp"
+#include "oracle/turns.hpp"
 
 namespace crt::test {
 namespace {
@@ -170,15 +171,6 @@ class TrueFieldLine {
   LinePolynomial once_{0.0};
   std::vector<TrueFlip> flips_;
 };
-
-/// Returns whether the crossings enter and leave by turns, in order.
-bool take_turns(const core::CrossingList& found) {
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].entering != (i % 2 == 0) || !std::isfinite(found[i].t)) return false;
-    if (i > 0 && found[i].t < found[i - 1].t) return false;
-  }
-  return found.size() % 2 == 0;
-}
 
 mpq_class place_of(const core::Crossing& crossing) {
   return mpq_class(crossing.t) + mpq_class(crossing.t_low);

@@ -14,6 +14,7 @@
 #include "crt/transform.hpp"
 #include "oracle/line_oracle.hpp"
 #include "oracle/mesh_oracle.hpp"
+#include "oracle/turns.hpp"
 
 namespace crt::test {
 namespace {
@@ -56,16 +57,6 @@ bool sums_keep_bounds(const core::CrossingList& found, const Flips& truth) {
                       const mpq_class sum = mpq_class(crossing.t) + mpq_class(crossing.t_low);
                       return distance(sum, place->t) <= mpq_class(crossing.error);
                     });
-}
-
-bool take_turns(const core::CrossingList& found) {
-  bool inside = false;
-  for (const core::Crossing& crossing : found) {
-    if (crossing.entering == inside || !std::isfinite(crossing.t)) return false;
-    inside = crossing.entering;
-  }
-  return !inside && std::is_sorted(found.begin(), found.end(),
-                                   [](const auto& a, const auto& b) { return a.t < b.t; });
 }
 
 /// Returns whether rounding may decide what is inside between a place and the next: whether any
