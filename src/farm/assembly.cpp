@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/render/accuracy.hpp"
@@ -12,16 +11,6 @@
 namespace crt::farm {
 
 namespace {
-
-constexpr std::array summed = {&RenderStats::camera_rays,
-                               &RenderStats::shadow_rays,
-                               &RenderStats::reflection_rays,
-                               &RenderStats::refraction_rays,
-                               &RenderStats::rays_below_min_weight,
-                               &RenderStats::rays_beyond_depth,
-                               &RenderStats::samples_over_ray_bound,
-                               &RenderStats::pixels,
-                               &RenderStats::pixels_unresolved};
 
 [[noreturn]] void fail(const Piece& piece) {
   throw Error(ErrorCode::io, fmt::format("pieces of frame {} do not belong together", piece.frame));
@@ -42,7 +31,7 @@ void Assembly::begin(const RenderedPiece& first) {
   std::fill(image_.pixels().begin(), image_.pixels().end(), 0.0f);
   image_.set_settings(first.image.settings());
   image_.stats() = first.image.stats();
-  for (const auto count : summed) image_.stats().*count = 0;
+  for (const auto count : summed_counts) image_.stats().*count = 0;
   image_.stats().passes = 0;
   image_.stats().cutoff_max = 0;
   brightest_ = first.brightest;
@@ -92,7 +81,7 @@ void Assembly::add(const RenderedPiece& rendered) {
   add_channels(rendered);
   const RenderStats& part = rendered.image.stats();
   RenderStats& stats = image_.stats();
-  for (const auto count : summed) stats.*count += part.*count;
+  for (const auto count : summed_counts) stats.*count += part.*count;
   stats.passes = std::max(stats.passes, part.passes);
   stats.cutoff_max = std::max(stats.cutoff_max, part.cutoff_max);
   cutoff_units_ += rendered.cutoff_units;

@@ -19,17 +19,8 @@ constexpr std::size_t longest_text = std::size_t{16} << 20;
 constexpr std::size_t most_channels = 16;
 constexpr std::size_t longest_channel_name = 64;
 
-constexpr std::array kept_counts = {&RenderStats::camera_rays,
-                                    &RenderStats::shadow_rays,
-                                    &RenderStats::reflection_rays,
-                                    &RenderStats::refraction_rays,
-                                    &RenderStats::rays_beyond_depth,
-                                    &RenderStats::rays_below_min_weight,
-                                    &RenderStats::samples_over_ray_bound,
-                                    &RenderStats::samples_min,
-                                    &RenderStats::samples_max,
-                                    &RenderStats::pixels,
-                                    &RenderStats::pixels_unresolved};
+/// A picture has the least and the most of these.
+constexpr std::array bounding_counts = {&RenderStats::samples_min, &RenderStats::samples_max};
 constexpr std::array kept_numbers = {&RenderStats::samples_mean, &RenderStats::unseen_share,
                                      &RenderStats::cutoff_max};
 
@@ -110,7 +101,8 @@ void write_piece(const RenderedPiece& rendered, core::StateWriter& out) {
   const auto& [frame, region] = rendered.piece;
   for (const int number : {frame, region.x, region.y, region.width, region.height}) out.put(number);
   for_each_field(image.settings(), FieldWriter{out});
-  for (const auto count : kept_counts) out.put(image.stats().*count);
+  for (const auto count : summed_counts) out.put(image.stats().*count);
+  for (const auto count : bounding_counts) out.put(image.stats().*count);
   for (const auto number : kept_numbers) out.put(image.stats().*number);
   out.put(image.stats().passes);
   out.put(rendered.cutoff_units);
@@ -160,7 +152,8 @@ RenderedPiece read_piece(const Manifest& manifest, const Piece& expected, core::
   validate(settings);
   if (settings.width != manifest.width || settings.height != manifest.height) in.fail();
   RenderStats stats;
-  for (const auto count : kept_counts) stats.*count = in.get<std::uint64_t>();
+  for (const auto count : summed_counts) stats.*count = in.get<std::uint64_t>();
+  for (const auto count : bounding_counts) stats.*count = in.get<std::uint64_t>();
   for (const auto number : kept_numbers) stats.*number = in.get<double>();
   stats.passes = in.get<int>();
   rendered.cutoff_units = in.get<std::uint64_t>();

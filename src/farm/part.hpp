@@ -2,6 +2,8 @@
 // be known of them.
 #pragma once
 
+#include <array>
+
 #include "farm/manifest.hpp"
 
 namespace crt::farm {
@@ -14,6 +16,17 @@ struct RenderedPiece {
   std::uint64_t cutoff_units = 0;  ///< see core::CutoffSum
   double brightest = 1;            ///< see core::brightest_of
 };
+
+/// These counts of a picture are the sums of those of its pieces. All machines agree on them.
+inline constexpr std::array summed_counts = {&RenderStats::camera_rays,
+                                             &RenderStats::shadow_rays,
+                                             &RenderStats::reflection_rays,
+                                             &RenderStats::refraction_rays,
+                                             &RenderStats::rays_beyond_depth,
+                                             &RenderStats::rays_below_min_weight,
+                                             &RenderStats::samples_over_ray_bound,
+                                             &RenderStats::pixels,
+                                             &RenderStats::pixels_unresolved};
 
 /// Writes the part of a task, whole or not at all. Throws Error (io).
 void write_part(const Job& job, int task, const std::vector<RenderedPiece>& pieces);
