@@ -14,7 +14,7 @@
 #include <system_error>
 #include <utility>
 
-extern char** environ;  // NOLINT: POSIX has no header for it
+#include "cli/process.hpp"
 
 namespace crt::cli {
 
@@ -44,29 +44,16 @@ std::vector<std::string> arguments_for(const std::string& ending, const FilmShap
 }
 
 /// Starts a program that reads from a pipe. Returns the error number, or 0.
-int start(const fs::path& program, std::vector<std::string> words, int& process, int& pipe_end) {
+int start(const fs::path& program, const std::vector<std::string>& words, int& process,
+          int& pipe_end) {
   int ends[2] = {};
   if (pipe2(ends, O_CLOEXEC) != 0) return errno;
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
   posix_spawn_file_actions_adddup2(&streams, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&streams, STDERR_FILENO, STDOUT_FILENO);
-  // An interrupt is for this program, which ends the other. Pipes are handled as usual there.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t usual;
-  sigemptyset(&usual);
-  sigaddset(&usual, SIGPIPE);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  const int error =
-      posix_spawn(&process, program.c_str(), &streams, &attributes, pointers.data(), environ);
-  posix_spawnattr_destroy(&attributes);
+  // An interrupt is for this program, which ends the other.
+  const int error = spawn(program.string(), words, streams, true, process);
   posix_spawn_file_actions_destroy(&streams);
   close(ends[0]);
   if (error != 0) {

@@ -17,26 +17,34 @@ extern char** environ;  // NOLINT: POSIX has no header for it
 
 namespace crt::cli {
 
-pid_t start_program(const std::vector<std::string>& words, int output) {
+int spawn(const std::string& program, const std::vector<std::string>& words,
+          const posix_spawn_file_actions_t& streams, bool own_group, pid_t& process) {
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  posix_spawn_file_actions_t streams;
-  posix_spawn_file_actions_init(&streams);
-  posix_spawn_file_actions_addopen(&streams, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&streams, output < 0 ? STDERR_FILENO : output, STDOUT_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t usual;
   sigemptyset(&usual);
   sigaddset(&usual, SIGPIPE);
   posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  pid_t process = 0;
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, own_group ? POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP
+                                                  : POSIX_SPAWN_SETSIGDEF);
   const int error =
-      posix_spawnp(&process, arguments.front(), &streams, &attributes, arguments.data(), environ);
+      posix_spawnp(&process, program.c_str(), &streams, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
+  return error;
+}
+
+pid_t start_program(const std::vector<std::string>& words, int output) {
+  posix_spawn_file_actions_t streams;
+  posix_spawn_file_actions_init(&streams);
+  posix_spawn_file_actions_addopen(&streams, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&streams, output < 0 ? STDERR_FILENO : output, STDOUT_FILENO);
+  pid_t process = 0;
+  const int error = spawn(words.front(), words, streams, false, process);
   posix_spawn_file_actions_destroy(&streams);
   if (error != 0) {
     throw Error(ErrorCode::io, fmt::format("cannot start '{}': {}", words.front(),

@@ -1,12 +1,19 @@
 // Other programs are run as a shell runs them, but without a shell.
 #pragma once
 
+#include <spawn.h>
 #include <sys/types.h>
 
 #include <string>
 #include <vector>
 
 namespace crt::cli {
+
+/// Starts a program by its path, or by a name that is looked for in PATH. It handles pipes as
+/// usual, whatever this one does. It is in a process group of its own if it is asked for. Returns
+/// the error number, or 0.
+int spawn(const std::string& program, const std::vector<std::string>& words,
+          const posix_spawn_file_actions_t& streams, bool own_group, pid_t& process);
 
 /// Starts a program, which is looked for in PATH, with standard input empty. Its output goes where
 /// this program's errors go, or to `output`, if that is a descriptor. Throws Error (io) if it

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
+#include "cli/process.hpp"
 #include "cli/reporter.hpp"
 
 namespace crt::cli {
@@ -20,8 +21,8 @@ namespace fs = std::filesystem;
 fs::path studio_program() {
   constexpr const char* name = "crt-studio";
   std::error_code failed;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", failed).parent_path() / name;
-  return !failed && fs::exists(beside, failed) ? beside : fs::path(name);
+  const fs::path folder = fs::path(this_program()).parent_path();
+  return !folder.empty() && fs::exists(folder / name, failed) ? folder / name : fs::path(name);
 }
 
 }  // namespace
