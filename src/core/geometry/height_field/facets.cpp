@@ -50,13 +50,7 @@ HeightFacets::HeightFacets(const HeightField& field)
       cells_x_(grid_->columns() - 1),
       cells_z_(grid_->rows() - 1),
       xs_(places_between(bounds_.lower.x, bounds_.upper.x, grid_->columns())),
-      zs_(places_between(bounds_.lower.z, bounds_.upper.z, grid_->rows())) {
-  const Vec3 size = bounds_.upper - bounds_.lower;
-  constexpr double sum_of_roundings = 1 + 0x1p-20;
-  longest_edge_ = sum_of_roundings * std::sqrt(size.x / cells_x_ * (size.x / cells_x_) +
-                                               size.z / cells_z_ * (size.z / cells_z_));
-  longest_edge_ += grid_->steepest() * size.y + 0x1p-50 * bounds_.farthest();
-}
+      zs_(places_between(bounds_.lower.z, bounds_.upper.z, grid_->rows())) {}
 
 Triangle HeightFacets::triangle(std::uint32_t face) const {
   if (face >= first_of_cells) {

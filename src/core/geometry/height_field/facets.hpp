@@ -43,8 +43,6 @@ class HeightFacets {
 
   bool is_closed() const { return true; }
   bool is_oriented() const { return true; }
-  /// Returns more than the length of any edge of a cell's triangles.
-  double longest_edge() const { return longest_edge_; }
   /// Returns the corners of a face, or of a triangle in the plane of a side or the bottom.
   Triangle triangle(std::uint32_t face) const;
   Triangle corners_of_plane(std::uint32_t face) const { return triangle(face); }
@@ -257,7 +255,6 @@ class HeightFacets {
   std::uint32_t cells_z_;
   std::vector<double> xs_;  ///< of columns
   std::vector<double> zs_;  ///< of rows
-  double longest_edge_ = 0;
 };
 
 }  // namespace crt::core

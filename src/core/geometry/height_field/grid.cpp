@@ -78,6 +78,7 @@ void HeightGrid::find_ranges() {
   lowest_ = *std::min_element(heights_.begin(), heights_.end());
   heights_.reserve(heights_.size() + parts_a_side);  // not twice as many
   heights_.resize(heights_.size() + parts_a_side);
+  if (top_level() < 2) return;
   for (std::uint32_t z = 0; z < levels_[1].depth; ++z) {
     for (std::uint32_t x = 0; x < levels_[1].width; ++x) find_range(x, z);
   }
@@ -105,8 +106,6 @@ void HeightGrid::find_range(std::uint32_t x, std::uint32_t z) {
       high = std::max(high, height(column, row));
     }
   }
-  steepest_ = std::max(steepest_, high - low);
-  if (top_level() < 2) return;
   const bool is_on_border =
       x == 0 || z == 0 || x + 1 == levels_[1].width || z + 1 == levels_[1].depth;
   constexpr double steps = 1 / Ranges::step;

@@ -29,8 +29,6 @@ class HeightGrid {
     return &heights_[std::size_t{row} * columns_ + column];
   }
   double lowest() const { return lowest_; }
-  /// Returns at least the difference of any two heights of one cell.
-  double steepest() const { return steepest_; }
 
   /// A block has so many parts along x, and as many along z.
   static constexpr std::uint32_t parts_a_side = 4;
@@ -78,7 +76,6 @@ class HeightGrid {
   std::uint32_t columns_;
   std::uint32_t rows_;
   double lowest_ = 1;
-  double steepest_ = 0;
   std::vector<Level> levels_;  ///< the first two have cells and squares of 16, and no ranges
   std::vector<Ranges> ranges_;
 };

@@ -1,9 +1,9 @@
 // The triangles that a line meets are found and put into order, for all that triangles enclose.
 //
-// Triangles are what a MeshTriangles has: is_closed(), is_oriented(), bounds(), longest_edge(),
-// triangle(), and a tree of them that a line walks through (root(), visit(), leaf()). A leaf has
-// triangles side by side. About each of them, and of faces that have crossings, is asked whether
-// they lie in one plane, and on which side the solid is.
+// Triangles are what a MeshTriangles has: is_closed(), is_oriented(), bounds(), triangle(), and a
+// tree of them that a line walks through (root(), visit(), leaf()). A leaf has triangles side by
+// side. About each of them, and of faces that have crossings, is asked whether they lie in one
+// plane, and on which side the solid is.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,12 @@ template <class Triangles>
 class MetTriangles {
  public:
   MetTriangles(const Triangles& mesh, PassingLine& line, const MeshTier& tier, CrossingList& list)
-      : mesh_(mesh), line_(line), ray_(line.near()), tier_(tier), list_(list) {}
+      : mesh_(mesh),
+        line_(line),
+        ray_(line.near()),
+        tier_(tier),
+        list_(list),
+        most_overlap_(most_overlap()) {}
 
   bool append();
 
@@ -75,6 +80,7 @@ class MetTriangles {
   const ObjectRay& ray_;
   const MeshTier& tier_;
   CrossingList& list_;
+  double most_overlap_;
   std::size_t begin_ = 0;
   double found_up_to_ = infinity;  ///< there may be more crossings beyond, where the last ends
   std::uint32_t last_ = no_face;   ///< its triangle
@@ -127,13 +133,12 @@ double MetTriangles<Triangles>::start_slack() const {
   return share * place_size() / largest_component(ray_.direction);
 }
 
-/// Returns how far before its box a crossing may be, as far as its error says. Where the line all
-/// but grazes a triangle, that is as far as keep_in_triangle() lets it be.
+/// Returns how far before or behind its triangle a crossing may be: keep_in_triangle() moves those
+/// that rounding has put farther away.
 template <class Triangles>
 double MetTriangles<Triangles>::most_overlap() const {
-  constexpr double roundings = 0x1p-48;
-  const double most_error = mesh_.longest_edge() + roundings * place_size();
-  return 2 * most_error / largest_component(ray_.direction);
+  constexpr double share = 0x1p-32;
+  return share * place_size() / largest_component(ray_.direction);
 }
 
 /// Finds the crossings, from near to far. If the first that is asked for is enough, it stops behind
@@ -142,7 +147,7 @@ template <class Triangles>
 void MetTriangles<Triangles>::find(bool first_is_enough) {
   const typename Triangles::Slabs slabs(ray_.origin, ray_.direction, line_.origin_error());
   LineSpan part{slabs.to_s(begin_of_line()), infinity};
-  const double margin = mesh_.is_closed() ? most_overlap() : 0;
+  const double margin = mesh_.is_closed() ? 2 * most_overlap_ : 0;
   constexpr std::size_t usual = 256;
   OpenNodes<TreePart, usual> open;
   open.push({-infinity, mesh_.root()});
@@ -246,11 +251,11 @@ void MetTriangles<Triangles>::keep_in_triangle(const Triangle& triangle, Crossin
     reach = std::max(reach, largest_component(offset));
   }
   constexpr double roundings = 16;
-  const double slack = roundings * unit_roundoff * reach * scale;
-  if (!(crossing.error > high - low + slack)) return;
+  const double extent = high - low + roundings * unit_roundoff * reach * scale;
+  if (!(crossing.error > std::min(extent, most_overlap_))) return;
   crossing.t = std::clamp(crossing.t, low, high);
   crossing.t_low = 0;
-  crossing.error = high - low + slack;
+  crossing.error = std::min(crossing.error, extent);
 }
 
 template <class Triangles>

@@ -101,8 +101,6 @@ MeshTriangles::MeshTriangles(std::span<const Vec3> positions,
     Bounds box;
     for (const std::uint32_t index : placed.corners) box.include(positions_[index]);
     bounds_.include(box);
-    constexpr double diagonal = 1.75;  // that of a cube, and a little more
-    longest_edge_ = std::max(longest_edge_, diagonal * largest_component(box.upper - box.lower));
   }
   const bool turned = is_closed() && oriented_ && turn_outwards();
   find_planes();
@@ -274,16 +272,15 @@ void MeshTriangles::find_facing(std::span<const EdgePair> pairs) {
 }
 
 TriangleLanes MeshTriangles::placed_corners(std::uint32_t first, std::uint32_t count) const {
-  TriangleLanes result;
-  for (std::size_t corner = 0; corner < 3; ++corner) {
+  const auto corners = [&](std::size_t corner) {
     const auto row = [&](std::uint32_t lane) {
-      const TriangleIndices& corners = placed_[first + std::min(lane, count - 1)].corners;
-      return lanes_at<Lanes>(&positions_[corners[corner]].x);
+      const TriangleIndices& indices = placed_[first + std::min(lane, count - 1)].corners;
+      return lanes_at<Lanes>(&positions_[indices[corner]].x);
     };
     const std::array<Lanes, lane_count> columns = transposed({row(0), row(1), row(2), row(3)});
-    result[corner] = {columns[0], columns[1], columns[2]};
-  }
-  return result;
+    return VectorLanes{columns[0], columns[1], columns[2]};
+  };
+  return {corners(0), corners(1), corners(2)};
 }
 
 std::size_t MeshTriangles::bytes() const {

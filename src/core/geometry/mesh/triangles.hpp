@@ -115,7 +115,14 @@ class MeshTriangles {
   template <class Meet>
   void visit(core::BvhChild node, const core::GridSlabs& slabs, const core::LineSpan& part,
              const Meet& meet) const {
-    tree_.visit(node.index(), slabs, part, meet);
+    tree_.visit(node.index(), slabs, part, [&](core::BvhChild child, double enter) {
+      if (child.is_leaf()) {
+        __builtin_prefetch(&placed_[child.index()]);
+      } else {
+        tree_.prefetch(child);
+      }
+      meet(child, enter);
+    });
   }
 
   bool is_closed() const { return fault_.empty(); }
@@ -126,8 +133,6 @@ class MeshTriangles {
   const std::string& fault() const { return fault_; }
 
   const core::Bounds& bounds() const { return bounds_; }
-  /// Returns more than the length of any edge.
-  double longest_edge() const { return longest_edge_; }
   const core::CompactBvh& tree() const { return tree_; }
   std::size_t bytes() const;
 
@@ -148,7 +153,6 @@ class MeshTriangles {
   std::string fault_;
   bool oriented_ = false;
   core::Bounds bounds_;
-  double longest_edge_ = 0;
   core::CompactBvh tree_;
   std::unique_ptr<const core::FacetAttributes> attributes_;
 };
