@@ -104,7 +104,12 @@ class MeshTriangles {
     Leaf(const MeshTriangles& mesh, core::BvhChild place) : mesh_(mesh), place_(place) {}
     std::uint32_t count() const { return place_.count(); }
     core::TriangleLanes corners() const { return mesh_.placed_corners(place_.index(), count()); }
-    const Placed& item(std::uint32_t i) const { return mesh_.placed_[place_.index() + i]; }
+    /// Returns a triangle that the line crosses. It is asked for by its number later.
+    const Placed& item(std::uint32_t i) const {
+      const Placed& placed = mesh_.placed_[place_.index() + i];
+      __builtin_prefetch(&mesh_.places_[placed.number]);
+      return placed;
+    }
 
    private:
     const MeshTriangles& mesh_;
