@@ -52,6 +52,12 @@ struct PictureRequest : CommonRequest {
   bool reproducible = false;
 };
 
+/// A NetworkAddress is where a program listens.
+struct NetworkAddress {
+  std::string host;
+  int port = 0;
+};
+
 struct RenderRequest : PictureRequest {
   std::vector<std::filesystem::path> scenes;
   std::optional<FrameRange> frames;
@@ -59,7 +65,8 @@ struct RenderRequest : PictureRequest {
   std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
-  bool show = false;  ///< in the terminal
+  bool show = false;                      ///< in the terminal
+  std::optional<NetworkAddress> display;  ///< of a viewer that shows pictures in progress
 };
 
 struct WatchRequest : PictureRequest {
