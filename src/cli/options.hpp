@@ -5,6 +5,7 @@
 
 #include <crt/render.hpp>
 #include <crt/script.hpp>
+#include <crt/source_code.hpp>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -125,6 +126,14 @@ struct NewRequest : CommonRequest {
   std::filesystem::path scene;
 };
 
+/// An ExportRequest asks for source code.
+struct ExportRequest : CommonRequest {
+  std::filesystem::path scene;
+  std::filesystem::path output;            ///< empty for standard output
+  std::optional<SourceLanguage> language;  ///< without it the ending of the output says it
+  std::optional<int> entity;               ///< writes this one alone
+};
+
 struct FormatRequest : CommonRequest {
   std::vector<std::filesystem::path> scenes;  ///< "-" stands for the standard streams
   bool check = false;
@@ -154,7 +163,7 @@ struct ManRequest {
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
 using Request = std::variant<RenderRequest, FarmRequest, WatchRequest, CheckRequest, TradeRequest,
-                             NewRequest, FormatRequest, LspRequest, StudioRequest,
+                             NewRequest, ExportRequest, FormatRequest, LspRequest, StudioRequest,
                              CompletionsRequest, ManRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
