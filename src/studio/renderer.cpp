@@ -162,6 +162,10 @@ void Renderer::render_newest() {
 }
 
 bool Renderer::run_script() {
+  if (revision_.scene) {
+    take_scene(revision_.scene, revision_.places);
+    return true;
+  }
   say(Phase::script);
   int lines = 0;
   ScriptOptions options;
@@ -176,17 +180,23 @@ bool Renderer::run_script() {
     say(Phase::failed, 0, "the script has errors");
     return false;
   }
+  take_scene(std::make_shared<const Scene>(std::move(*result.scene)),
+             std::move(result.entity_places));
+  return true;
+}
+
+void Renderer::take_scene(std::shared_ptr<const Scene> scene, std::vector<EntityPlace> places) {
   // Whoever changes the script's camera wants to see that one.
-  if (script_camera_ && !are_equal(*script_camera_, result.scene->camera)) {
+  if (script_camera_ && !are_equal(*script_camera_, scene->camera)) {
     const std::lock_guard lock(mutex_);
     if (changes_ == change_) asked_camera_.reset();
     camera_.reset();
   }
-  script_camera_ = result.scene->camera;
-  scene_ = std::move(result.scene);
+  original_ = std::move(scene);
+  script_camera_ = original_->camera;
+  scene_ = *original_;
   scene_->entities = numbered(scene_->entities);
-  places_ = std::move(result.entity_places);
-  return true;
+  places_ = std::move(places);
 }
 
 bool Renderer::prepare_scene() {
@@ -198,7 +208,7 @@ bool Renderer::prepare_scene() {
   options.go_on = [this] { return !script_is_old(); };
   prepared_ = prepare(scene, options);
   auto view = std::make_shared<const View>(
-      View{revision_, std::move(scene), *prepared_, places_, camera_.has_value()});
+      View{revision_, std::move(scene), *prepared_, places_, camera_.has_value(), original_});
   {
     const std::lock_guard lock(mutex_);
     view_ = view;

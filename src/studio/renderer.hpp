@@ -20,11 +20,13 @@
 
 namespace crt::studio {
 
-/// A Revision is a version of the script.
+/// A Revision is a version of the script, or a scene that a program has made.
 struct Revision {
   std::uint32_t number = 0;
   std::string name;  ///< the script's path
   std::shared_ptr<const std::string> text;
+  std::shared_ptr<const Scene> scene{};  ///< what is shown if there is one, and no script is run
+  std::vector<EntityPlace> places{};     ///< of its entities in the text
 };
 
 /// A View is what is shown: a scene that was prepared, and where its entities come from.
@@ -34,6 +36,7 @@ struct View {
   PreparedScene prepared;
   std::vector<EntityPlace> places;
   bool camera_is_overridden = false;
+  std::shared_ptr<const Scene> original{};  ///< with the camera and the numbers that it came with
 };
 
 /// Says what the renderer does now.
@@ -84,6 +87,7 @@ class Renderer {
   void work();
   void render_newest();
   bool run_script();
+  void take_scene(std::shared_ptr<const Scene> scene, std::vector<EntityPlace> places);
   bool prepare_scene();
   void draw_drafts();
   void render_whole();
@@ -117,8 +121,9 @@ class Renderer {
   std::uint64_t change_ = 0;
   Revision revision_;
   std::optional<Camera> camera_;
-  std::optional<Camera> script_camera_;  ///< of the last scene
-  std::optional<Scene> scene_;           ///< as the script has it
+  std::optional<Camera> script_camera_;    ///< of the last scene
+  std::shared_ptr<const Scene> original_;  ///< as the script has it
+  std::optional<Scene> scene_;             ///< with entities under numbers that say their places
   std::vector<EntityPlace> places_;
   std::optional<PreparedScene> prepared_;
   std::uint32_t pictures_ = 0;

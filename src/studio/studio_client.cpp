@@ -1,7 +1,6 @@
 #include "studio/studio_client.hpp"
 
 #include <crt/error.hpp>
-#include <crt/validate.hpp>
 #include <crt/version.hpp>
 #include <functional>
 #include <map>
@@ -11,8 +10,7 @@
 
 #include "studio/analyst.hpp"
 #include "studio/messages.hpp"
-#include "studio/picture_frame.hpp"
-#include "studio/renderer.hpp"
+#include "studio/view_client.hpp"
 
 namespace crt::studio {
 
@@ -44,20 +42,19 @@ std::string with_wide_line_ends(const std::string& text) {
   return result;
 }
 
-class StudioClient : public Client {
+class StudioClient : public ViewClient {
  public:
   StudioClient(std::shared_ptr<Connection> connection, std::shared_ptr<const Folder> folder,
                const StudioOptions& options)
-      : connection_(std::move(connection)),
+      : ViewClient(std::move(connection), options.threads),
         folder_(std::move(folder)),
-        handlers_{{"open", &StudioClient::open},       {"text", &StudioClient::take_text},
-                  {"camera", &StudioClient::camera},   {"acknowledge", &StudioClient::acknowledge},
-                  {"render", &StudioClient::render},   {"ask", &StudioClient::ask},
-                  {"pick", &StudioClient::pick},       {"save", &StudioClient::save},
-                  {"picture", &StudioClient::picture}, {"look", &StudioClient::look}},
         analyst_([this](const Analysis& analysis) { send(tokens_message(analysis)); },
-                 [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
-        renderer_(events(), options.threads) {
+                 [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }) {
+    on("open", [this](const json& message) { open(message); });
+    on("text", [this](const json& message) { take_text(message); });
+    on("ask", [this](const json& message) { ask(message); });
+    on("save", [this](const json& message) { save(message); });
+    on("look", [this](const json&) { look(); });
     send({{"type", "hello"},
           {"version", version()},
           {"folder", folder_->path().string()},
@@ -66,58 +63,7 @@ class StudioClient : public Client {
           {"objects", objects_json()}});
   }
 
-  void receive(std::string_view text) override {
-    try {
-      const json message = json::parse(text);
-      const auto handler = handlers_.find(message.at("type").get<std::string>());
-      if (handler == handlers_.end()) return complain("there is no message of this type", message);
-      handle(handler->second, message);
-    } catch (const json::exception&) {
-      complain("this is no message of the studio's", {});
-    }
-  }
-
  private:
-  using Handler = void (StudioClient::*)(const json&);
-
-  RenderEvents events() {
-    return {.picture = [this](const EncodedPicture& picture) { send_picture(picture); },
-            .state = [this](const RenderState& state) { send(state_message(state)); },
-            .scene = [this](const View& view) { send(scene_message(view)); },
-            .finished = [this](const Revision& revision,
-                               const Image& image) { send(finished_message(revision, image)); },
-            .print =
-                [this](const std::string& line) {
-                  send({{"type", "print"}, {"line", line}});
-                }};
-  }
-
-  void send(const json& message) const { connection_->send_text(text_of(message)); }
-
-  /// The renderer's thread alone calls it.
-  void send_picture(const EncodedPicture& picture) {
-    for (std::string& frame : frames_of(picture, last_picture_ ? &*last_picture_ : nullptr))
-      connection_->send_binary(std::move(frame));
-    last_picture_ = picture;
-  }
-
-  void complain(const std::string& why, const json& message) const {
-    json error = {{"type", "error"}, {"message", why}};
-    if (message.is_object() && message.contains("id")) error["id"] = message.at("id");
-    if (message.is_object() && message.contains("type")) error["about"] = message.at("type");
-    send(error);
-  }
-
-  void handle(Handler handler, const json& message) {
-    try {
-      (this->*handler)(message);
-    } catch (const json::exception&) {
-      complain("the message lacks something, or has it of another type", message);
-    } catch (const Error& error) {
-      complain(error.what(), message);
-    }
-  }
-
   void open(const json& message) {
     const auto name = message.at("script").get<std::string>();
     on_disk_ = folder_->read(name);
@@ -133,26 +79,7 @@ class StudioClient : public Client {
                                              : folder_->file_of(script_).string();
     const Revision revision{message.at("revision").get<std::uint32_t>(), name, std::move(text)};
     analyst_.set_script(revision);
-    renderer_.set_script(revision);
-  }
-
-  void camera(const json& message) {
-    const json& value = message.at("camera");
-    if (value.is_null()) return renderer_.set_camera(std::nullopt);
-    const Camera camera = camera_of(value);
-    validate(camera);
-    renderer_.set_camera(camera);
-  }
-
-  void acknowledge(const json& message) {
-    renderer_.acknowledge(message.at("picture").get<std::uint32_t>());
-  }
-
-  void render(const json& message) {
-    const auto action = message.at("action").get<std::string>();
-    if (action == "cancel") return renderer_.cancel();
-    if (action == "restart") return renderer_.restart();
-    throw Error(ErrorCode::invalid_argument, "a render is cancelled or restarted");
+    renderer().set_script(revision);
   }
 
   void ask(const json& message) {
@@ -177,14 +104,6 @@ class StudioClient : public Client {
                 {"result", is_old ? json(nullptr) : answer->second(analysis, unit)}});
         });
     if (!is_taken) throw Error(ErrorCode::limit, "there are too many questions at once");
-  }
-
-  void pick(const json& message) {
-    const double x = message.at("x").get<double>();
-    const double y = message.at("y").get<double>();
-    const std::shared_ptr<const View> view = renderer_.view();
-    const json result = view ? pick_json(*view, x, y) : json(nullptr);
-    send({{"type", "answer"}, {"id", message.at("id")}, {"result", result}});
   }
 
   void save(const json& message) {
@@ -217,7 +136,7 @@ class StudioClient : public Client {
   }
 
   /// Sends the script's file if another program has written it.
-  void look(const json&) {
+  void look() {
     if (script_.empty() || !on_disk_) return;
     std::string now;
     try {
@@ -230,27 +149,10 @@ class StudioClient : public Client {
     send({{"type", "changed"}, {"script", script_}, {"text", with_plain_line_ends(*on_disk_)}});
   }
 
-  /// Sends the last whole picture as a file.
-  void picture(const json& message) {
-    const std::shared_ptr<const Image> image = renderer_.picture();
-    if (!image) throw Error(ErrorCode::invalid_argument, "there is no picture yet");
-    const auto format = message.at("format").get<std::string>();
-    if (format != "png" && format != "exr")
-      throw Error(ErrorCode::invalid_argument, "pictures are png or exr");
-    const std::vector<std::byte> bytes = image->encode(format, {.reproducible = true});
-    std::string file = "CRTI" + format + " ";
-    file.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    connection_->send_binary(std::move(file));
-  }
-
-  const std::shared_ptr<Connection> connection_;
   const std::shared_ptr<const Folder> folder_;
-  const std::map<std::string, Handler, std::less<>> handlers_;
   std::string script_;
   std::optional<std::string> on_disk_;  ///< what the script's file had
-  std::optional<EncodedPicture> last_picture_;
   Analyst analyst_;
-  Renderer renderer_;
 };
 
 }  // namespace

@@ -267,8 +267,10 @@ class WebServer::State {
       acceptor_.listen();
       shared_->port = acceptor_.local_endpoint().port();
       // Whoever has read the address may interrupt at once.
-      signals_.add(SIGINT);
-      signals_.add(SIGTERM);
+      if (options.ends_by_signals) {
+        signals_.add(SIGINT);
+        signals_.add(SIGTERM);
+      }
     } catch (const boost::system::system_error& error) {
       throw Error(ErrorCode::io, "cannot listen on " + options.address + ":" +
                                      std::to_string(options.port) + ": " + error.code().message());
