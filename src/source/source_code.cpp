@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "source/entities.hpp"
+#include "source/templates.hpp"
 #include "source/values.hpp"
 
 namespace crt {
@@ -13,82 +14,6 @@ using source::EntityWriter;
 using source::Program;
 using source::Syntax;
 
-constexpr const char* cpp_begin = R"(#include <array>
-#include <crt/crt.hpp>
-#include <cstddef>
-#include <cstdint>
-#include <cstdio>
-#include <iterator>
-#include <memory>
-#include <span>
-#include <vector>
-
-using namespace crt;
-
-)";
-
-constexpr const char* cpp_main = R"(
-int main(int argc, char** argv) try {
-  render(prepare(make_scene())).write(argc > 1 ? argv[1] : "picture.png", {.reproducible = true});
-  return 0;
-} catch (const Error& error) {
-  std::fprintf(stderr, "%s\n", error.what());
-  return 1;
-}
-)";
-
-constexpr const char* python_begin = R"(import sys
-
-import crt
-
-
-)";
-
-constexpr const char* python_main = R"(
-
-if __name__ == "__main__":
-    make_scene().render().save(sys.argv[1] if len(sys.argv) > 1 else "picture.png", reproducible=True)
-)";
-
-constexpr const char* c_begin = R"(#include <crt/crt.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-/* Ends the program if something has failed. */
-static void check(crt_status status) {
-  if (status == CRT_OK) return;
-  fprintf(stderr, "%s\n", crt_error_message());
-  exit(1);
-}
-
-)";
-
-constexpr const char* c_set = R"(static void set(double* vector, double x, double y, double z) {
-  vector[0] = x;
-  vector[1] = y;
-  vector[2] = z;
-}
-
-)";
-
-constexpr const char* c_main = R"(
-int main(int argc, char** argv) {
-  crt_scene* scene = make_scene();
-  crt_prepared* prepared = NULL;
-  check(crt_scene_prepare(scene, &prepared));
-  crt_image* image = NULL;
-  check(crt_render(prepared, NULL, &image));
-  crt_write_options options;
-  check(crt_write_options_init(&options, sizeof options));
-  options.reproducible = 1;
-  check(crt_image_write_with(image, argc > 1 ? argv[1] : "picture.png", &options));
-  crt_image_release(image);
-  crt_prepared_release(prepared);
-  crt_scene_release(scene);
-  return 0;
-}
-)";
-
 /// A Function is what the code of a function is put around.
 struct Function {
   const char* type;  ///< "Scene"
@@ -97,10 +22,10 @@ struct Function {
 };
 
 std::string begin_of(const Syntax& syntax, const Program& program, bool is_alone) {
-  if (syntax.is_cpp()) return cpp_begin;
-  if (syntax.is_python()) return is_alone ? "import crt\n\n\n" : python_begin;
+  if (syntax.is_cpp()) return source::cpp_begin;
+  if (syntax.is_python()) return is_alone ? "import crt\n\n\n" : source::python_begin;
   const bool sets = program.lines().find("  set(") != std::string::npos;
-  return std::string(c_begin) + (sets ? c_set : "");
+  return std::string(source::c_begin) + (sets ? source::c_set : "");
 }
 
 std::string function_text(const Program& program, const Function& function) {
@@ -158,7 +83,9 @@ void write_scene(Program& program, const Scene& scene) {
 }
 
 const char* main_of(const Syntax& syntax) {
-  return syntax.is_cpp() ? cpp_main : syntax.is_python() ? python_main : c_main;
+  return syntax.is_cpp()      ? source::cpp_main
+         : syntax.is_python() ? source::python_main
+                              : source::c_main;
 }
 
 }  // namespace

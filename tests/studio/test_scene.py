@@ -40,7 +40,7 @@ class Scene(unittest.TestCase):
         self.addCleanup(lambda: self.program.process.poll() is None and self.program.end())
 
     def start(self):
-        """Opens the scene as the page does. Returns the client, the text and what is known of it."""
+        """Opens the scene as the page does. Returns the client, the text and what show() does."""
         client = Client(self.program)
         self.addCleanup(client.close)
         text = client.open(client.hello["script"])
