@@ -225,7 +225,7 @@ withPage('what another program writes is shown, and what was typed is not lost b
          async ({page, folder}) => {
   writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.4'));
   await page.waitForFunction(() => studio.editor.text.includes('radius -> 0.4'));
-  assert.equal(await page.evaluate(() => studio.isChanged), false);
+  assert.equal(await page.evaluate(() => studio.file.isChanged), false);
   await type(page, '0.4', '0.45');
   writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.9'));
   await page.getByRole('button', {name: 'Keep what is here'}).click();
@@ -260,7 +260,7 @@ withPage('the picture has the most room, and all panels are seen at 1280 by 720'
 
 withPage('texts of both themes have the contrast of WCAG AA', async ({page}) => {
   for (const theme of ['dark', 'light']) {
-    await page.evaluate((name) => studio.applyTheme(name), theme);
+    await page.evaluate((name) => studio.layout.applyTheme(name), theme);
     const weak = await page.evaluate(() => {
       const style = getComputedStyle(document.documentElement);
       const luminance = (name) => {
@@ -292,7 +292,7 @@ withPage('the layout and the theme are kept', async ({page, server}) => {
   await page.getByRole('button', {name: 'Theme'}).click();
   await page.locator('.dv-tab', {hasText: 'Statistics'}).click();
   await page.locator('.statistics').waitFor();
-  await page.evaluate(() => studio.dock.getPanel('queue').api.close());
+  await page.evaluate(() => studio.layout.dock.getPanel('queue').api.close());
   await page.goto('about:blank');
   await page.goto(server.url);
   await whole(page);
@@ -356,7 +356,7 @@ withPage('a script of 10000 lines can be typed in', async ({page, folder}) => {
   const long = scene.replace('Scene {\n', 'Scene {\n' +
     '    Sphere { center -> vec3(0, 0, 9) radius -> 0.1 }\n'.repeat(10000));
   writeFileSync(join(folder, 'long.crt'), long);
-  await page.evaluate(() => studio.open('long.crt'));
+  await page.evaluate(() => studio.file.open('long.crt'));
   await page.waitForFunction(() => studio.editor.view.state.doc.lines > 10000);
   await whole(page);
   await type(page, '0.7', '0.6');

@@ -9,12 +9,12 @@ const server = await startServer(folder, 'csg.crt');
 const browser = await startBrowser();
 const page = await openPage(browser, server.url);
 await whole(page);
-await page.evaluate(() => studio.applyTheme('dark'));
+await page.evaluate(() => studio.layout.applyTheme('dark'));
 await page.locator('.tree .row', {hasText: 'Material'}).first().click();
 await page.locator('.dv-tab', {hasText: 'Queue'}).click();
 await page.mouse.move(0, 0);
 await page.screenshot({path: join(project, 'docs/studio/overview.png')});
-await page.evaluate(() => studio.applyTheme('light'));
+await page.evaluate(() => studio.layout.applyTheme('light'));
 await page.evaluate(() => {
   const place = studio.editor.text.indexOf('Plane {');
   studio.editor.view.dispatch({
