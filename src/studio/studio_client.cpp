@@ -10,9 +10,12 @@
 #include <utility>
 
 #include "studio/analyst.hpp"
+#include "studio/machine.hpp"
 #include "studio/messages.hpp"
 #include "studio/picture_frame.hpp"
 #include "studio/renderer.hpp"
+#include "studio/typed_keeper.hpp"
+#include "studio/view_messages.hpp"
 
 namespace crt::studio {
 
@@ -54,10 +57,13 @@ class StudioClient : public Client {
                   {"camera", &StudioClient::camera},   {"acknowledge", &StudioClient::acknowledge},
                   {"render", &StudioClient::render},   {"ask", &StudioClient::ask},
                   {"pick", &StudioClient::pick},       {"save", &StudioClient::save},
-                  {"picture", &StudioClient::picture}, {"look", &StudioClient::look}},
+                  {"picture", &StudioClient::picture}, {"look", &StudioClient::look},
+                  {"view", &StudioClient::view},       {"boxes", &StudioClient::boxes},
+                  {"forget", &StudioClient::forget},   {"machine", &StudioClient::machine}},
         analyst_([this](const Analysis& analysis) { send(tokens_message(analysis)); },
                  [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
-        renderer_(events(), options.threads) {
+        renderer_(events(), options.threads),
+        keeper_(folder_) {
     send({{"type", "hello"},
           {"version", version()},
           {"folder", folder_->path().string()},
@@ -122,7 +128,12 @@ class StudioClient : public Client {
     const auto name = message.at("script").get<std::string>();
     on_disk_ = folder_->read(name);
     script_ = name;
-    send({{"type", "opened"}, {"script", name}, {"text", with_plain_line_ends(*on_disk_)}});
+    has_typed_ = false;
+    const std::string text = with_plain_line_ends(*on_disk_);
+    json opened = {{"type", "opened"}, {"script", name}, {"text", text}};
+    const std::optional<std::string> typed = folder_->typed(name);
+    if (typed && *typed != text) opened["typed"] = *typed;
+    send(opened);
   }
 
   void take_text(const json& message) {
@@ -131,10 +142,39 @@ class StudioClient : public Client {
       throw Error(ErrorCode::limit, "the script is longer than 4 MiB");
     const std::string name = script_.empty() ? (folder_->path() / "untitled.crt").string()
                                              : folder_->file_of(script_).string();
-    const Revision revision{message.at("revision").get<std::uint32_t>(), name, std::move(text)};
+    const Revision revision{message.at("revision").get<std::uint32_t>(), name, text};
+    std::optional<ViewOptions> options;
+    if (message.contains("view")) options = view_options_of(message.at("view"), Utf16Places(*text));
+    text_ = std::move(text);
+    if (!script_.empty() && message.value("script", "") == script_) keep_typed();
     analyst_.set_script(revision);
-    renderer_.set_script(revision);
+    renderer_.set_script(revision, std::move(options));
   }
+
+  /// Keeps what is typed until it is what the file has. What others typed stays until then.
+  void keep_typed() {
+    if (!on_disk_ || *text_ != with_plain_line_ends(*on_disk_)) {
+      keeper_.keep(script_, text_);
+      has_typed_ = true;
+    } else if (has_typed_) {
+      keeper_.forget(script_);
+    }
+  }
+
+  void view(const json& message) {
+    if (!text_) throw Error(ErrorCode::invalid_argument, "there is no script to be viewed yet");
+    renderer_.set_options(view_options_of(message.at("view"), Utf16Places(*text_)));
+  }
+
+  void boxes(const json& message) {
+    const std::shared_ptr<const View> view = renderer_.view();
+    const json result = view ? boxes_json(*view) : json(nullptr);
+    send({{"type", "answer"}, {"id", message.at("id")}, {"result", result}});
+  }
+
+  void forget(const json& message) { keeper_.forget(message.at("script").get<std::string>()); }
+
+  void machine(const json&) { send(machine_message(machine_state())); }
 
   void camera(const json& message) {
     const json& value = message.at("camera");
@@ -162,6 +202,7 @@ class StudioClient : public Client {
         {"hover", hover_json},
         {"definition", definition_json},
         {"places", places_json},
+        {"preview", preview_json},
         {"format", [](const Analysis& analysis, std::uint32_t) { return format_json(analysis); }}};
     const auto answer = answers.find(message.at("what").get<std::string>());
     if (answer == answers.end()) throw Error(ErrorCode::invalid_argument, "nobody can answer this");
@@ -200,6 +241,8 @@ class StudioClient : public Client {
                    {"message", "'" + name + "' was changed by another program"}});
     }
     folder_->write(name, text);
+    keeper_.forget(name);
+    has_typed_ = false;
     script_ = name;
     on_disk_ = std::move(text);
     send({{"type", "saved"}, {"script", name}, {"scripts", folder_->scripts()}});
@@ -237,7 +280,8 @@ class StudioClient : public Client {
     const auto format = message.at("format").get<std::string>();
     if (format != "png" && format != "exr")
       throw Error(ErrorCode::invalid_argument, "pictures are png or exr");
-    const std::vector<std::byte> bytes = image->encode(format, {.reproducible = true});
+    const std::vector<std::byte> bytes =
+        image->encode(format, {.reproducible = true, .colors_only = true});
     std::string file = "CRTI" + format + " ";
     file.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     connection_->send_binary(std::move(file));
@@ -248,9 +292,12 @@ class StudioClient : public Client {
   const std::map<std::string, Handler, std::less<>> handlers_;
   std::string script_;
   std::optional<std::string> on_disk_;  ///< what the script's file had
+  std::shared_ptr<const std::string> text_;
+  bool has_typed_ = false;  ///< since the script was opened or saved
   std::optional<EncodedPicture> last_picture_;
   Analyst analyst_;
   Renderer renderer_;
+  TypedKeeper keeper_;
 };
 
 }  // namespace

@@ -204,7 +204,7 @@ lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
 lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
   without '^src/(lsp/(server|requests|json_values)|farm/manifest)\.cpp:' |
-  without '^src/studio/(messages|studio_client)\.cpp:' |
+  without '^src/studio/(messages|view_messages|studio_client)\.cpp:' |
   complain "JSON outside the sources that have to wait for it"
 lines_with '^#include <boost/' "${code[@]}" | without '^src/studio/web_server\.cpp:' |
   complain "Boost outside src/studio/web_server.cpp: one source is enough to wait for"

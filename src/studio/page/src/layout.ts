@@ -22,6 +22,12 @@ export class Layout {
     });
     this.applyTheme(localStorage.getItem(themeKey) ??
       (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark'));
+  }
+
+  /** Puts the panels where they were, once the page has its other parts. */
+  start(): void {
+    const {clientWidth, clientHeight} = document.getElementById('dock')!;
+    this.dock.layout(clientWidth, clientHeight);
     this.restore();
     this.dock.onDidLayoutChange(() =>
       localStorage.setItem(layoutKey, JSON.stringify(this.dock.toJSON())));

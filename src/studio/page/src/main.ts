@@ -6,15 +6,20 @@ import './style.css';
 import {cameraEdits} from './camera_text';
 import {dot, subtract, unit} from './camera';
 import {Connection} from './connection';
+import {button} from './dom';
 import {Editor} from './editor';
 import {Layout} from './layout';
 import {LiveView} from './live_view';
-import {Console, Queue, Statistics} from './panels';
+import {Console, Statistics} from './panels';
 import {PropertySheet} from './properties';
-import type {Camera, Message, Pick, Scene} from './protocol';
+import type {Box, Camera, Message, Pick, Scene, TreeNode} from './protocol';
+import {Queue} from './queue';
 import {ScriptFile} from './script_file';
 import {Selection} from './selection';
+import {TradePlot} from './trade_plot';
 import {Tree} from './tree';
+import {ViewControls} from './view_controls';
+import {ViewState} from './view_state';
 
 /** In this interval the server is asked whether another program has written the script. */
 const lookMilliseconds = 1000;
@@ -22,13 +27,17 @@ const lookMilliseconds = 1000;
 class Studio {
   private readonly console = new Console();
   private readonly statistics = new Statistics();
-  private readonly queue = new Queue((action) => this.connection.send({type: 'render', action}));
-  private readonly tree = new Tree((index) => this.selection.choose(index));
+  private readonly trade = new TradePlot();
+  private readonly queue = new Queue(
+    (action) => this.connection.send({type: 'render', action}), this.trade.element);
+  private readonly viewState = new ViewState(() => this.viewChanged());
+  private readonly tree = new Tree((index) => this.selection.choose(index), this.viewState);
   private readonly sheet = new PropertySheet({
     begin: () => this.editor.beginGesture(),
     edit: (changes) => this.editor.edit(changes),
     select: (span) => this.editor.select(span, true),
     textOf: (span) => this.editor.text.slice(span[0], span[1]),
+    ballOf: (node) => this.ballOf(node),
   });
   private readonly selection = new Selection(this.tree, this.sheet,
                                              (span) => this.editor.select(span, false));
@@ -36,11 +45,22 @@ class Studio {
     cameraMoved: (camera) => this.setCamera(camera),
     cameraReset: () => this.setCamera(null),
     picked: (x, y, focuses) => void this.pick(x, y, focuses),
+    regionChosen: (region) => this.viewState.set({region}),
+  });
+  private readonly controls = new ViewControls(this.viewState, this.view.comparison, {
+    askBoxes: () => this.askBoxes(),
+    viewer: () => (this.camera ?? this.scene?.camera)?.position ?? [0, 0, 0],
+    countShown: () => this.view.shown,
+    boundsChanged: () => void this.drawBounds(),
   });
   private readonly editor = new Editor({
-    changed: (text) => this.textChanged(text),
+    changed: (text, changes) => {
+      if (changes) this.viewState.follow(changes);
+      else this.resetView();
+      this.textChanged(text);
+    },
     moved: (place) => this.selection.showAt(place),
-    ask: (what, at) => this.connection.ask({type: 'ask', what, at, revision: this.revision}),
+    ask: (what, at) => this.ask(what, at),
     save: () => this.file.save(false),
   });
   private readonly file = new ScriptFile({
@@ -70,17 +90,23 @@ class Studio {
 
   constructor(token: string) {
     this.makeBar();
+    this.layout.start();
+    this.view.element.append(this.controls.element);
     this.connection = new Connection(token, {
       message: (message) => this.receive(message),
       frame: (frame) => {
         this.view.show(frame);
+        this.trade.add(frame, this.queue.seconds);
         if (frame.isLast && frame.revision === this.revision && this.timing.firstPicture === 0)
           this.timing.firstPicture = performance.now() - this.timing.changed;
       },
       file: (format, content) => this.download(format, content),
       connected: (isConnected) => this.connected(isConnected),
     });
-    setInterval(() => this.connection.send({type: 'look'}), lookMilliseconds);
+    setInterval(() => {
+      this.connection.send({type: 'look'});
+      this.connection.send({type: 'machine'});
+    }, lookMilliseconds);
     addEventListener('beforeunload', (event) => {
       if (this.file.isChanged) event.preventDefault();
     });
@@ -88,24 +114,19 @@ class Studio {
 
   private makeBar(): void {
     const bar = document.getElementById('bar')!;
-    const button = (text: string, title: string, action: () => void) => {
-      const element = document.createElement('button');
-      element.textContent = text;
-      element.title = title;
-      element.addEventListener('click', action);
-      bar.append(element);
-    };
+    const add = (text: string, title: string, action: () => void) =>
+      bar.append(button(text, title, action));
     const name = document.createElement('b');
     name.textContent = 'CRT studio';
     bar.append(name, this.file.list);
-    button('Save', 'Write the script to its file (Ctrl+S)', () => this.file.save(false));
-    button('Format', 'Lay the script out (Shift+Alt+F)', () => void this.editor.format());
-    button('Camera to script', 'Write this view into the script', () => this.writeCamera());
-    button('Reset view', 'Look through the script’s camera (Home)', () => this.setCamera(null));
-    button('PNG', 'Save the picture as PNG', () => this.savePicture('png'));
-    button('EXR', 'Save the picture as EXR', () => this.savePicture('exr'));
+    add('Save', 'Write the script to its file (Ctrl+S)', () => this.file.save(false));
+    add('Format', 'Lay the script out (Shift+Alt+F)', () => void this.editor.format());
+    add('Camera to script', 'Write this view into the script', () => this.writeCamera());
+    add('Reset view', 'Look through the script’s camera (Home)', () => this.setCamera(null));
+    add('PNG', 'Save the picture as PNG', () => this.savePicture('png'));
+    add('EXR', 'Save the picture as EXR', () => this.savePicture('exr'));
     bar.append(this.layout.makeList());
-    button('Theme', 'Change between dark and light', () => this.layout.toggleTheme());
+    add('Theme', 'Change between dark and light', () => this.layout.toggleTheme());
   }
 
   // ---- messages
@@ -118,12 +139,13 @@ class Studio {
         this.file.start(message.folder, message.script, message.scripts);
         break;
       case 'opened':
-        this.file.opened(message.script, message.text);
+        this.file.opened(message.script, message.text, message.typed);
         break;
       case 'analysis':
         if (message.revision !== this.revision) break;
         this.editor.setTokens(message.tokens);
         this.selection.set(message.tree, this.editor.view.state.selection.main.head);
+        this.viewState.fit(this.tree.statements());
         break;
       case 'diagnostics':
         if (message.revision !== this.revision) break;
@@ -136,12 +158,17 @@ class Studio {
         this.view.setCamera(message.camera);
         if (!message.isOverridden) this.camera = null;
         this.statistics.setScene(message);
+        this.controls.setReadsTime(message.readsTime);
+        void this.drawBounds();
         for (const warning of message.warnings) this.console.add(warning, 'warning');
         break;
       case 'state':
         this.queue.set(message);
         if (message.phase === 'failed' && message.message !== 'the script has errors')
           this.console.add(message.message, 'error');
+        break;
+      case 'machine':
+        this.queue.setMachine(message);
         break;
       case 'finished':
         this.statistics.setStats(message.stats);
@@ -193,13 +220,50 @@ class Studio {
   }
 
   private sendText(): void {
-    this.connection.send({type: 'text', revision: this.revision, text: this.editor.text});
+    this.connection.send({type: 'text', revision: this.revision, text: this.editor.text,
+                          script: this.file.name, view: this.viewState.options});
+  }
+
+  private ask(what: string, at: number): Promise<unknown> {
+    return this.connection.ask({type: 'ask', what, at, revision: this.revision});
+  }
+
+  private async ballOf(node: TreeNode): Promise<string | null> {
+    const material = this.selection.materialOf(node);
+    const file = material && await this.ask('preview', material.span[0]);
+    return typeof file === 'string' ? `data:image/png;base64,${file}` : null;
+  }
+
+  // ---- what the view shows
+
+  private viewChanged(): void {
+    this.connection.send({type: 'view', view: this.viewState.options});
+    this.controls.update();
+    this.view.overlay.setRegion(this.viewState.options.region);
+    this.tree.draw();
+  }
+
+  /** Shows all of another script. */
+  private resetView(): void {
+    this.controls.reset();
+    this.view.overlay.setRegion(null);
+  }
+
+  private async askBoxes(): Promise<Box[]> {
+    const answer = await this.connection.ask({type: 'boxes'}) as {boxes: Box[]} | null;
+    return answer?.boxes ?? [];
+  }
+
+  private async drawBounds(): Promise<void> {
+    const boxes = this.controls.showsBounds ? await this.askBoxes() : [];
+    this.view.overlay.setBoxes(boxes);
   }
 
   // ---- the camera and the picture
 
   private async pick(x: number, y: number, focuses: boolean): Promise<void> {
     const pick = (await this.connection.ask({type: 'pick', x, y})) as Pick | null;
+    this.controls.showPick(pick);
     if (!pick || !this.scene) return;
     if (focuses) {
       const camera = this.camera ?? this.scene.camera;

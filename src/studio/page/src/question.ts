@@ -1,15 +1,13 @@
 // Asks by a bar that keeps nobody from going on.
 
+import {button} from './dom';
+
 export function ask(question: string, answers: Record<string, () => void>): void {
   const bar = document.getElementById('question')!;
-  const buttons = Object.entries(answers).map(([text, action]) => {
-    const button = document.createElement('button');
-    button.textContent = text;
-    button.addEventListener('click', () => {
+  const buttons = Object.entries(answers).map(([text, action]) =>
+    button(text, '', () => {
       bar.replaceChildren();
       action();
-    });
-    return button;
-  });
+    }));
   bar.replaceChildren(question, ...buttons);
 }

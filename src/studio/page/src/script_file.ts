@@ -1,4 +1,4 @@
-// The script's file: what is opened, saved, kept in the browser, and written by other programs.
+// The script's file: what is opened, saved, kept until then, and written by other programs.
 
 import {ask} from './question';
 
@@ -53,7 +53,8 @@ export class ScriptFile {
     this.host.send({type: 'open', script});
   }
 
-  opened(script: string, text: string): void {
+  /** `typed` is what was typed and not saved, as the server kept it. */
+  opened(script: string, text: string, typed?: string): void {
     if (script === this.name && this.hasText) {  // the connection came back
       this.savedText = text;
       return this.host.resume();
@@ -67,6 +68,14 @@ export class ScriptFile {
     this.host.show(kept ?? text);
     if (kept !== null && kept !== text)
       this.host.note('What you had typed and not saved is here again.');
+    else if (typed !== undefined) this.offer(script, typed);
+  }
+
+  private offer(script: string, typed: string): void {
+    ask(`What was typed into ${script} and not saved was kept.`, {
+      'Go on with it': () => this.host.replace(typed),
+      'Discard it': () => this.host.send({type: 'forget', script}),
+    });
   }
 
   /** Keeps each new text in the browser until it is saved. */

@@ -23,6 +23,18 @@ export class Selection {
     this.show(index);
   }
 
+  /** Finds the Material of an object: itself, one that stands in it, or behind a variable. */
+  materialOf(object: TreeNode): TreeNode | null {
+    if (object.name === 'Material') return object;
+    const attribute = object.attributes.find(({name}) => name === 'material');
+    if (!attribute) return null;
+    const variable = /^the variable '(.*)'$/.exec(attribute.reason ?? '')?.[1];
+    const place = this.nodes.find(({kind, name}) =>
+      kind === 'assignment' && name === variable)?.span ?? attribute.span;
+    return this.nodes.find(({name, span}) =>
+      name === 'Material' && span[0] >= place[0] && span[1] <= place[1]) ?? null;
+  }
+
   /** Shows the innermost node around a place. */
   showAt(place: number): void {
     let found = -1;
