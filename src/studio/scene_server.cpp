@@ -14,6 +14,7 @@
 #include "studio/messages.hpp"
 #include "studio/page_files.hpp"
 #include "studio/view_client.hpp"
+#include "studio/view_messages.hpp"
 #include "studio/web_server.hpp"
 
 namespace crt::studio {
@@ -53,7 +54,12 @@ class SceneClient : public ViewClient {
     on("save", [](const json&) {
       throw Error(ErrorCode::unsupported, "the scene is a program's, and cannot be saved here");
     });
+    on("view", [this](const json& message) {
+      const std::lock_guard lock(mutex_);
+      renderer().set_options(view_options_of(message.at("view"), Utf16Places(*shown_->text)));
+    });
     on("look", [](const json&) {});
+    on("forget", [](const json&) {});
     send({{"type", "hello"},
           {"version", version()},
           {"folder", ""},
@@ -96,6 +102,8 @@ class SceneClient : public ViewClient {
     if (text != *shown_->text) return send_changed("changed");
     revision_ = revision;
     has_revision_ = true;
+    if (message.contains("view"))
+      renderer().set_options(view_options_of(message.at("view"), Utf16Places(text)));
     send(listing_message(shown_->listing, revision_));
     send({{"type", "diagnostics"}, {"revision", revision_}, {"diagnostics", json::array()}});
     render_shown();

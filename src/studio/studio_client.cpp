@@ -10,7 +10,9 @@
 
 #include "studio/analyst.hpp"
 #include "studio/messages.hpp"
+#include "studio/typed_keeper.hpp"
 #include "studio/view_client.hpp"
+#include "studio/view_messages.hpp"
 
 namespace crt::studio {
 
@@ -49,11 +51,15 @@ class StudioClient : public ViewClient {
       : ViewClient(std::move(connection), options.threads),
         folder_(std::move(folder)),
         analyst_([this](const Analysis& analysis) { send(tokens_message(analysis)); },
-                 [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }) {
+                 [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
+        keeper_(folder_) {
     on("open", [this](const json& message) { open(message); });
     on("text", [this](const json& message) { take_text(message); });
+    on("view", [this](const json& message) { view(message); });
     on("ask", [this](const json& message) { ask(message); });
     on("save", [this](const json& message) { save(message); });
+    on("forget",
+       [this](const json& message) { keeper_.forget(message.at("script").get<std::string>()); });
     on("look", [this](const json&) { look(); });
     send({{"type", "hello"},
           {"version", version()},
@@ -68,7 +74,12 @@ class StudioClient : public ViewClient {
     const auto name = message.at("script").get<std::string>();
     on_disk_ = folder_->read(name);
     script_ = name;
-    send({{"type", "opened"}, {"script", name}, {"text", with_plain_line_ends(*on_disk_)}});
+    has_typed_ = false;
+    const std::string text = with_plain_line_ends(*on_disk_);
+    json opened = {{"type", "opened"}, {"script", name}, {"text", text}};
+    const std::optional<std::string> typed = folder_->typed(name);
+    if (typed && *typed != text) opened["typed"] = *typed;
+    send(opened);
   }
 
   void take_text(const json& message) {
@@ -77,9 +88,28 @@ class StudioClient : public ViewClient {
       throw Error(ErrorCode::limit, "the script is longer than 4 MiB");
     const std::string name = script_.empty() ? (folder_->path() / "untitled.crt").string()
                                              : folder_->file_of(script_).string();
-    const Revision revision{message.at("revision").get<std::uint32_t>(), name, std::move(text)};
+    const Revision revision{message.at("revision").get<std::uint32_t>(), name, text};
+    std::optional<ViewOptions> options;
+    if (message.contains("view")) options = view_options_of(message.at("view"), Utf16Places(*text));
+    text_ = std::move(text);
+    if (!script_.empty() && message.value("script", "") == script_) keep_typed();
     analyst_.set_script(revision);
-    renderer().set_script(revision);
+    renderer().set_script(revision, std::move(options));
+  }
+
+  /// Keeps what is typed until it is what the file has. What others typed stays until then.
+  void keep_typed() {
+    if (!on_disk_ || *text_ != with_plain_line_ends(*on_disk_)) {
+      keeper_.keep(script_, text_);
+      has_typed_ = true;
+    } else if (has_typed_) {
+      keeper_.forget(script_);
+    }
+  }
+
+  void view(const json& message) {
+    if (!text_) throw Error(ErrorCode::invalid_argument, "there is no script to be viewed yet");
+    renderer().set_options(view_options_of(message.at("view"), Utf16Places(*text_)));
   }
 
   void ask(const json& message) {
@@ -89,6 +119,7 @@ class StudioClient : public ViewClient {
         {"hover", hover_json},
         {"definition", definition_json},
         {"places", places_json},
+        {"preview", preview_json},
         {"format", [](const Analysis& analysis, std::uint32_t) { return format_json(analysis); }}};
     const auto answer = answers.find(message.at("what").get<std::string>());
     if (answer == answers.end()) throw Error(ErrorCode::invalid_argument, "nobody can answer this");
@@ -119,6 +150,8 @@ class StudioClient : public ViewClient {
                    {"message", "'" + name + "' was changed by another program"}});
     }
     folder_->write(name, text);
+    keeper_.forget(name);
+    has_typed_ = false;
     script_ = name;
     on_disk_ = std::move(text);
     send({{"type", "saved"}, {"script", name}, {"scripts", folder_->scripts()}});
@@ -152,7 +185,10 @@ class StudioClient : public ViewClient {
   const std::shared_ptr<const Folder> folder_;
   std::string script_;
   std::optional<std::string> on_disk_;  ///< what the script's file had
+  std::shared_ptr<const std::string> text_;
+  bool has_typed_ = false;  ///< since the script was opened or saved
   Analyst analyst_;
+  TypedKeeper keeper_;
 };
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "studio/machine.hpp"
 #include "studio/messages.hpp"
+#include "studio/view_messages.hpp"
 
 namespace crt::studio {
 
@@ -20,6 +22,12 @@ ViewClient::ViewClient(std::shared_ptr<Connection> connection, int threads)
   });
   on("render", [this](const json& message) { render(message); });
   on("pick", [this](const json& message) { pick(message); });
+  on("boxes", [this](const json& message) {
+    const std::shared_ptr<const View> view = renderer_.view();
+    const json result = view ? boxes_json(*view) : json(nullptr);
+    send({{"type", "answer"}, {"id", message.at("id")}, {"result", result}});
+  });
+  on("machine", [this](const json&) { send(machine_message(machine_state())); });
   on("picture", [this](const json& message) { picture(message); });
   on("code", [this](const json& message) { code(message); });
 }
@@ -102,7 +110,8 @@ void ViewClient::picture(const json& message) {
   const auto format = message.at("format").get<std::string>();
   if (format != "png" && format != "exr")
     throw Error(ErrorCode::invalid_argument, "pictures are png or exr");
-  const std::vector<std::byte> bytes = image->encode(format, {.reproducible = true});
+  const std::vector<std::byte> bytes =
+      image->encode(format, {.reproducible = true, .colors_only = true});
   std::string file = "CRTI" + format + " ";
   file.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   connection_->send_binary(std::move(file));

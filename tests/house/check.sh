@@ -209,7 +209,8 @@ lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
 lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
   without '^src/(lsp/(server|requests|json_values)|farm/manifest)\.cpp:' |
-  without '^src/studio/(messages|listing|scene_server|studio_client|view_client)\.cpp:' |
+  without '^src/studio/(messages|view_messages|listing|scene_server)\.cpp:' |
+  without '^src/studio/(studio_client|view_client)\.cpp:' |
   complain "JSON outside the sources that have to wait for it"
 lines_with '^#include <boost/' "${code[@]}" | without '^src/studio/web_server\.cpp:' |
   complain "Boost outside src/studio/web_server.cpp: one source is enough to wait for"

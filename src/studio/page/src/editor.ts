@@ -25,8 +25,8 @@ const longestGesture = 60_000;
 const typingPause = 500;
 
 export interface EditorHost {
-  /** Takes each new text, and says what its revision is. */
-  changed(text: string): void;
+  /** Takes each new text, and how it came from the one before. Without that it is another one. */
+  changed(text: string, changes: ChangeDesc | null): void;
   moved(place: number): void;
   ask(what: string, at: number): Promise<unknown>;
   save(): void;
@@ -132,7 +132,7 @@ export class Editor {
   /** Replaces all, without a way back. */
   open(text: string): void {
     this.view.setState(EditorState.create({doc: text, extensions: this.extensions()}));
-    this.host.changed(this.text);
+    this.host.changed(this.text, null);
   }
 
   setTokens(tokens: number[]): void {
@@ -222,7 +222,7 @@ export class Editor {
         indentWithTab,
       ]),
       EditorView.updateListener.of((update) => {
-        if (update.docChanged) this.host.changed(this.text);
+        if (update.docChanged) this.host.changed(this.text, update.changes);
         // Where the cursor is in a new text is seen when that has been analysed.
         if (update.selectionSet && !update.docChanged)
           this.host.moved(update.state.selection.main.head);
