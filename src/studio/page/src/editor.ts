@@ -114,6 +114,8 @@ const completionTypes: Record<string, string> = {
 export class Editor {
   readonly element = document.createElement('div');
   readonly view: EditorView;
+  /** Holds from the next text on. */
+  isReadOnly = false;
   private lastTyped = 0;
   private readonly plugin = ViewPlugin.fromClass(Highlighter, {decorations: (p) => p.decorations});
 
@@ -159,6 +161,7 @@ export class Editor {
 
   /** Makes edits that are undone as one. Those of one gesture are one, too. */
   edit(changes: {from: number; to: number; insert: string}[]): void {
+    if (this.isReadOnly) return;
     this.view.dispatch({changes, annotations: Transaction.userEvent.of(gestureEvent)});
   }
 
@@ -204,6 +207,7 @@ export class Editor {
       indentOnInput(), indentUnit.of('    '), bracketMatching(), search({top: true}),
       highlightSelectionMatches(), lintGutter(), this.plugin, theme,
       EditorView.contentAttributes.of({'aria-label': 'Script'}),
+      EditorState.readOnly.of(this.isReadOnly),
       autocompletion({icons: false, override: [(context) => this.complete(context)]}),
       hoverTooltip((_view, place) => this.hover(place)),
       EditorView.domEventHandlers({

@@ -24,10 +24,11 @@ export class Layout {
       (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark'));
   }
 
-  /** Puts the panels where they were, once the page has its other parts. */
-  start(): void {
+  /** Puts the panels where they were, or `only` one, once the page has its other parts. */
+  start(only?: string): void {
     const {clientWidth, clientHeight} = document.getElementById('dock')!;
     this.dock.layout(clientWidth, clientHeight);
+    if (only !== undefined && this.panels[only]) return this.show(only);
     this.restore();
     this.dock.onDidLayoutChange(() =>
       localStorage.setItem(layoutKey, JSON.stringify(this.dock.toJSON())));

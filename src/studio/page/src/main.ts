@@ -6,13 +6,14 @@ import './style.css';
 import {cameraEdits} from './camera_text';
 import {dot, subtract, unit} from './camera';
 import {Connection} from './connection';
+import {makeCopyList} from './copy_code';
 import {button} from './dom';
 import {Editor} from './editor';
 import {Layout} from './layout';
 import {LiveView} from './live_view';
 import {Console, Statistics} from './panels';
 import {PropertySheet} from './properties';
-import type {Box, Camera, Message, Pick, Scene, TreeNode} from './protocol';
+import type {Box, Camera, Code, Message, Pick, Scene, TreeNode} from './protocol';
 import {Queue} from './queue';
 import {ScriptFile} from './script_file';
 import {Selection} from './selection';
@@ -88,9 +89,10 @@ class Studio {
   /** For tests: when the text changed last, and how long the first picture of it took. */
   readonly timing = {changed: 0, firstPicture: 0, diagnostics: 0};
 
-  constructor(token: string) {
+  constructor(token: string, only?: string) {
     this.makeBar();
-    this.layout.start();
+    document.body.classList.toggle('only-view', only !== undefined);
+    this.layout.start(only);
     this.view.element.append(this.controls.element);
     this.connection = new Connection(token, {
       message: (message) => this.receive(message),
@@ -116,16 +118,20 @@ class Studio {
     const bar = document.getElementById('bar')!;
     const add = (text: string, title: string, action: () => void) =>
       bar.append(button(text, title, action));
+    const addWriting = (text: string, title: string, action: () => void) => {
+      add(text, title, action);
+      bar.lastElementChild!.className = 'writes';
+    };
     const name = document.createElement('b');
     name.textContent = 'CRT studio';
     bar.append(name, this.file.list);
-    add('Save', 'Write the script to its file (Ctrl+S)', () => this.file.save(false));
-    add('Format', 'Lay the script out (Shift+Alt+F)', () => void this.editor.format());
-    add('Camera to script', 'Write this view into the script', () => this.writeCamera());
+    addWriting('Save', 'Write the script to its file (Ctrl+S)', () => this.file.save(false));
+    addWriting('Format', 'Lay the script out (Shift+Alt+F)', () => void this.editor.format());
+    addWriting('Camera to script', 'Write this view into the script', () => this.writeCamera());
     add('Reset view', 'Look through the script’s camera (Home)', () => this.setCamera(null));
     add('PNG', 'Save the picture as PNG', () => this.savePicture('png'));
     add('EXR', 'Save the picture as EXR', () => this.savePicture('exr'));
-    bar.append(this.layout.makeList());
+    bar.append(this.copyList(), this.layout.makeList());
     add('Theme', 'Change between dark and light', () => this.layout.toggleTheme());
   }
 
@@ -135,10 +141,11 @@ class Studio {
     switch (message.type) {
       case 'hello':
         this.sheet.describe(message.objects);
-        this.console.add(`CRT ${message.version}, folder ${message.folder}`);
+        this.console.add(`CRT ${message.version}` + (message.folder && `, folder ${message.folder}`));
         this.file.start(message.folder, message.script, message.scripts);
         break;
       case 'opened':
+        this.setReadOnly(message.readOnly ?? false);
         this.file.opened(message.script, message.text, message.typed);
         break;
       case 'analysis':
@@ -191,6 +198,12 @@ class Studio {
       default:
         break;
     }
+  }
+
+  /** A scene of a program is listed, and cannot be changed here. */
+  private setReadOnly(isReadOnly: boolean): void {
+    this.editor.isReadOnly = isReadOnly;
+    document.body.classList.toggle('read-only', isReadOnly);
   }
 
   private connected(isConnected: boolean): void {
@@ -291,6 +304,15 @@ class Studio {
     this.editor.edit(changes);
   }
 
+  private copyList(): HTMLSelectElement {
+    return makeCopyList({
+      ask: (language, span) => this.connection.ask(
+        {type: 'code', language, ...(span ? {span} : {})}) as Promise<Code | null>,
+      selected: () => this.selection.selected,
+      note: (text, kind) => this.console.add(text, kind),
+    });
+  }
+
   private savePicture(format: string): void {
     this.connection.send({type: 'picture', format});
   }
@@ -305,4 +327,6 @@ class Studio {
 }
 
 const token = /token=([0-9a-f]+)/.exec(location.hash)?.[1] ?? '';
-Object.assign(window, {studio: new Studio(token)});
+/** A page in a frame may show one panel alone: #token=...&only=view. */
+const only = /only=([a-z]+)/.exec(location.hash)?.[1];
+Object.assign(window, {studio: new Studio(token, only)});

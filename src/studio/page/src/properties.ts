@@ -3,7 +3,7 @@
 
 import {apertureSpots} from './aperture';
 import {numberText, stringText, vectorText} from './numbers';
-import type {Attribute, ObjectDescription, TreeNode} from './protocol';
+import type {Attribute, AttributeDescription, ObjectDescription, TreeNode} from './protocol';
 import {markdown} from './markdown';
 import {choices, ranges} from './property_ranges';
 
@@ -75,7 +75,7 @@ export class PropertySheet {
     head.append(heading, this.ball);
     const rows: HTMLElement[] = [head];
     const given = new Map(node.attributes.map((attribute) => [attribute.name, attribute]));
-    for (const description of this.objects.get(node.name)?.attributes ?? []) {
+    for (const description of this.descriptionsOf(node)) {
       const attribute = given.get(description.name);
       const row = document.createElement('div');
       row.className = 'property';
@@ -100,6 +100,12 @@ export class PropertySheet {
       rows.push(row);
     }
     this.element.replaceChildren(...rows);
+  }
+
+  /** Lists what an object of the language may have, and of others what they have. */
+  private descriptionsOf(node: TreeNode): AttributeDescription[] {
+    return this.objects.get(node.name)?.attributes ?? node.attributes.map(({name}) =>
+      ({name, type: '', required: false, default: '', about: ''}));
   }
 
   /** Finds the attribute as the newest tree has it: its place moves with the text. */

@@ -137,7 +137,7 @@ export interface State {
 export type Message =
   | {type: 'hello'; version: string; folder: string; script: string; scripts: string[];
      objects: ObjectDescription[]}
-  | {type: 'opened'; script: string; text: string; typed?: string}
+  | {type: 'opened'; script: string; text: string; typed?: string; readOnly?: boolean}
   | {type: 'analysis'; revision: number; tokens: number[]; tree: TreeNode[]}
   | {type: 'diagnostics'; revision: number; diagnostics: Diagnostic[]}
   | {type: 'answer'; id: number; revision?: number; result: unknown}
@@ -150,6 +150,12 @@ export type Message =
   | Machine
   | Scene
   | State;
+
+/** Source code, and in what it may differ from what it was written of. */
+export interface Code {
+  text: string;
+  warnings: string[];
+}
 
 /** A rectangle of a picture, with the whole that it belongs to. */
 export interface Frame {

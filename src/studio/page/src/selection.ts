@@ -6,6 +6,8 @@ import type {Tree} from './tree';
 
 export class Selection {
   nodes: TreeNode[] = [];
+  /** Is the piece of the text that is selected in the tree. */
+  selected: Span | null = null;
 
   constructor(private readonly tree: Tree, private readonly sheet: PropertySheet,
               private readonly selectText: (span: Span) => void) {}
@@ -47,6 +49,7 @@ export class Selection {
   /** Shows a node, with the properties of the innermost object around or else in it. */
   private show(index: number): void {
     this.tree.select(index);
+    this.selected = this.nodes[index]?.span ?? null;
     let object = index;
     while (object >= 0 && !['object', 'settings'].includes(this.nodes[object]!.kind))
       object = this.nodes[object]!.parent;
