@@ -147,6 +147,7 @@ struct StudioRequest : CommonRequest {
   std::filesystem::path scene;  ///< a script or a folder; empty for the current folder
   int port = 0;                 ///< 0 takes one that is free
   int threads = 0;
+  bool embed = false;  ///< in a frame of another page, until standard input ends
 };
 
 /// Asks for the completions of all commands in a shell.

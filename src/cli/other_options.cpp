@@ -196,6 +196,11 @@ docs/studio.md says how it is used, also from another machine.)",
                               request.port > highest)
                             throw WrongValue("--port", "a whole number from 1 to 65535", text);
                         }});
+  table.rows.push_back({.names = "--embed",
+                        .type = "",
+                        .help = "lets pages of this machine show it in a frame, as notebooks do, "
+                                "and ends when standard input does",
+                        .take = into_flag("--embed", request.embed)});
   add_threads_row(table.rows, request.threads);
   return table;
 }

@@ -42,6 +42,10 @@ struct WebServerOptions {
   std::map<std::string, PageFile, std::less<>> files{};  ///< by the path, "/" too
   /// SIGINT and SIGTERM end run(). A program that has signals of its own leaves them alone.
   bool ends_by_signals = true;
+  /// The end of standard input ends run(), too: a program that started this one has ended.
+  bool ends_with_input = false;
+  /// Pages of this machine may show the page in a frame, as notebooks do.
+  bool may_be_framed = false;
   std::size_t most_connections = 64;
   std::size_t most_clients = 16;
   std::size_t longest_message = std::size_t{16} << 20;
