@@ -12,11 +12,11 @@ namespace {
 
 crt::Scene ring_of(int count) {
   crt::Scene scene;
-  scene.entities.push_back(crt::Plane{.normal = {0, 1, 0}});
+  scene.entities.emplace_back(crt::Plane{.normal = {0, 1, 0}});
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i / count;
     const double share = static_cast<double>(i) / count;
-    scene.entities.push_back(
+    scene.entities.emplace_back(
         crt::Sphere{.center = {2 * std::cos(angle), 0.5, 2 * std::sin(angle)},
                     .radius = 0.5,
                     .material = crt::Material{.color = crt::Color{0.8, 0.8 * share, 0.1}}});

@@ -252,7 +252,7 @@ int TevViewer::connected_socket() const {
       last = failure;
     }
   }
-  throw last;
+  throw Failure(last);
 }
 
 void TevViewer::send_all(int socket, const std::string& bytes) const {

@@ -179,6 +179,7 @@ std::string EntityWriter::placed_by(const std::string& entity, const Transform& 
   }
   if (syntax.is_python()) {
     std::vector<std::string> lists;
+    lists.reserve(rows.size());
     for (const auto& row : rows) lists.push_back(syntax.list(number_items(row)));
     return called(entity, "transformed(" + syntax.list(lists) + ")");
   }

@@ -46,6 +46,7 @@ std::string python_bytes(const std::vector<std::byte>& file) {
 std::string image_name(Program& program, const std::shared_ptr<const Image>& image) {
   if (std::string known = program.known(image.get()); !known.empty()) return known;
   const std::vector<std::byte> file = file_of(*image);
+  program.require_space(file.size());
   const Syntax& syntax = program.syntax();
   std::string name;
   if (syntax.is_python()) {
@@ -53,6 +54,7 @@ std::string image_name(Program& program, const std::shared_ptr<const Image>& ima
     return program.remember(image.get(), name);
   }
   std::vector<std::string> items;
+  items.reserve(file.size());
   for (const std::byte byte : file) items.push_back(std::to_string(std::to_integer<int>(byte)));
   const std::string bytes = program.array("image_file", "unsigned char", items);
   if (syntax.is_c()) {

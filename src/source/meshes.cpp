@@ -203,6 +203,7 @@ class MeshWriter {
 std::string mesh_value(Program& program, const Mesh& mesh) {
   std::string name = program.known(mesh.triangles.get());
   if (name.empty()) {
+    program.require_space(std::size_t{3} * mesh.triangles->size());
     const MeshParts parts = parts_of(*mesh.triangles);
     check_parts(parts, *mesh.triangles);
     name = program.remember(mesh.triangles.get(), MeshWriter(program, parts).write());

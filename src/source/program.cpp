@@ -6,9 +6,17 @@
 
 namespace crt::source {
 
+void Program::require_space(std::size_t numbers) const {
+  constexpr std::size_t least_bytes = 2;  // a digit and a comma
+  if (numbers > most_bytes_ / least_bytes) refuse();
+}
+
 void Program::grow(std::size_t bytes) {
   bytes_ += bytes;
-  if (bytes_ <= most_bytes_) return;
+  if (bytes_ > most_bytes_) refuse();
+}
+
+void Program::refuse() const {
   throw Error(ErrorCode::limit,
               fmt::format("the source code would be longer than {} bytes: load large meshes and "
                           "images from their files instead",

@@ -18,6 +18,9 @@ class Program {
 
   const Syntax& syntax() const { return syntax_; }
 
+  /// Throws Error (limit) if there is surely no space for a list of so many numbers. It is asked
+  /// before any of them is written.
+  void require_space(std::size_t numbers) const;
   /// Adds a line of the function. Throws Error (limit) if the program becomes too long.
   void add_line(const std::string& line);
   /// Gives a value a name, but in C. `type` is that of C++. Returns the name.
@@ -56,6 +59,7 @@ class Program {
  private:
   std::string new_name(const std::string& kind);
   void grow(std::size_t bytes);
+  [[noreturn]] void refuse() const;
 
   struct Made {
     std::string kind;

@@ -148,6 +148,7 @@ std::string profile_name(Program& program, const std::shared_ptr<const Profile>&
     }
   } else {
     std::vector<std::string> lists;
+    lists.reserve(contours.size());
     for (const Contour& contour : contours)
       lists.push_back(contour_list(program.syntax(), contour));
     const std::string list = program.syntax().list(lists);
@@ -162,6 +163,7 @@ std::string profile_name(Program& program, const std::shared_ptr<const Profile>&
 std::string heights_name(Program& program, const std::shared_ptr<const HeightGrid>& grid) {
   if (std::string known = program.known(grid.get()); !known.empty()) return known;
   const Syntax& syntax = program.syntax();
+  program.require_space(std::size_t{grid->columns()} * grid->rows());
   std::vector<std::string> rows;
   std::vector<std::string> all;
   for (std::uint32_t row = 0; row < grid->rows(); ++row) {

@@ -54,7 +54,7 @@ std::string pattern_in_field(Program& program, const Pattern& pattern) {
 
 class PatternFields {
  public:
-  PatternFields(Program& program) : program_(program), fields_(program.syntax()) {}
+  explicit PatternFields(Program& program) : program_(program), fields_(program.syntax()) {}
 
   template <class Kind>
   Fields of(const Kind& pattern) {
@@ -106,6 +106,7 @@ class PatternFields {
   void add_colors(const std::vector<ColorStop>& stops) {
     if (stops.empty()) return;
     std::vector<std::string> items;
+    items.reserve(stops.size());
     const bool is_python = program_.syntax().is_python();
     for (const auto& [position, color] : stops) {
       items.push_back(

@@ -13,7 +13,7 @@ namespace crt::source {
 std::string image_name(Program& program, const std::shared_ptr<const Image>& image);
 
 /// Returns the name of a material.
-std::string material_name(Program& program, const SharedMaterial& material);
+std::string material_name(Program& program, const SharedMaterial& shared);
 
 // These return values, in C the names of structs.
 

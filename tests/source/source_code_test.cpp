@@ -128,6 +128,15 @@ TEST_CASE("too much text is refused as soon as it is too much") {
   }
 }
 
+TEST_CASE("lists that would be too long are refused before they are written") {
+  Scene scene;
+  scene.entities = {
+      HeightField{.heights = make_height_grid(std::vector<double>(4000000, 0.5), 2000, 2000)}};
+  for (const SourceLanguage language : languages) {
+    CHECK(refusal(scene, {.language = language, .most_bytes = 1000000}) == ErrorCode::limit);
+  }
+}
+
 TEST_CASE("a field that would be longer than it is as a graph is refused") {
   Field field = Field::x();
   for (int i = 0; i < 100; ++i) field = field + field;
