@@ -72,12 +72,11 @@ check_layers() {
   lines_with '^#include [<"](format|service|lsp|studio|cli)/' 'src/capi/*'
   lines_with '^#include [<"](service|lsp|studio|cli|capi)/' 'src/format/*'
   lines_with '^#include [<"](lsp|studio|cli|capi)/' 'src/service/*'
-  lines_with '^#include [<"](studio|cli|capi)/' 'src/lsp/*'
+  lines_with '^#include [<"](format|studio|cli|capi)/' 'src/lsp/*'
   lines_with '^#include [<"](lang|format|service|lsp|cli|capi)/' 'src/studio/*'
   lines_with '^#include [<"](lang|format|service|lsp|studio)/' 'src/cli/*' |
     without '"(format/format|lsp/server)\.hpp"'
-  lines_with '^#include [<"]format/' 'src/lsp/*' 'src/service/*' |
-    without '"format/format\.hpp"'
+  lines_with '^#include [<"]format/' 'src/service/*' | without '"format/format\.hpp"'
 }
 
 # only_in REGEX FOLDER... prints includes of a library that stand outside its folders.
