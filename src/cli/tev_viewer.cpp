@@ -34,6 +34,8 @@ constexpr int channel_count = 4;
 constexpr int most_rows = 64;
 /// A viewer that takes nothing for so long has failed.
 constexpr milliseconds longest_wait{4000};
+/// A viewer that has not taken the last picture after so long has failed, too.
+constexpr std::chrono::seconds longest_finish{20};
 /// In this interval a wait looks whether it is to end.
 constexpr milliseconds look_interval{50};
 
@@ -174,7 +176,9 @@ void TevViewer::show(std::string name, Image image) {
 
 void TevViewer::finish() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return failure_ || (!next_ && !is_sending_); });
+  const bool is_done = changed_.wait_for(lock, longest_finish,
+                                         [this] { return failure_ || (!next_ && !is_sending_); });
+  if (!is_done) failure_ = failure_text("it is too slow");
 }
 
 bool TevViewer::is_lost() const {
@@ -191,6 +195,10 @@ bool TevViewer::is_ended() const {
   return is_ended_;
 }
 
+std::string TevViewer::failure_text(const std::string& why) const {
+  return fmt::format("no viewer shows the picture at {}:{}: {}", address_.host, address_.port, why);
+}
+
 void TevViewer::work() {
   std::string why;
   try {
@@ -202,8 +210,7 @@ void TevViewer::work() {
     why = "there is not enough memory";
   }
   const std::lock_guard lock(mutex_);
-  failure_ =
-      fmt::format("no viewer shows the picture at {}:{}: {}", address_.host, address_.port, why);
+  if (!failure_) failure_ = failure_text(why);
   changed_.notify_all();
 }
 

@@ -39,7 +39,7 @@ class TevViewer {
 
   /// Shows a picture under a name, soon.
   void show(std::string name, Image image);
-  /// Waits until the last picture is sent, or sending has failed, which takes some seconds at most
+  /// Waits until the last picture is sent, or sending has failed: 20 seconds at most, and about 4
   /// after the viewer took the last byte.
   void finish();
   /// Says whether pictures are still wanted.
@@ -59,6 +59,7 @@ class TevViewer {
   int connected_socket() const;
   void send_all(int socket, const std::string& bytes) const;
   void wait_for(int socket, short event, const char* what) const;
+  std::string failure_text(const std::string& why) const;
   bool is_ended() const;
 
   const NetworkAddress address_;
