@@ -11,14 +11,21 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crt)
 
 install(TARGETS crt_image_files EXPORT crt_static
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/crt COMPONENT runtime)
-install(TARGETS crt_core crt_lang crt_farm crt_format crt_service crt_capi_static EXPORT crt_static
+install(TARGETS crt_core crt_lang crt_farm crt_format crt_service crt_source crt_capi_static
+  EXPORT crt_static
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 set_target_properties(crt_core PROPERTIES EXPORT_NAME core)
 set_target_properties(crt_lang PROPERTIES EXPORT_NAME lang)
 set_target_properties(crt_farm PROPERTIES EXPORT_NAME farm)
 set_target_properties(crt_format PROPERTIES EXPORT_NAME format)
 set_target_properties(crt_service PROPERTIES EXPORT_NAME service)
+set_target_properties(crt_source PROPERTIES EXPORT_NAME source)
 set_target_properties(crt_image_files PROPERTIES EXPORT_NAME image_files)
+if(TARGET crt_studio)
+  install(TARGETS crt_studio EXPORT crt_static
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  set_target_properties(crt_studio PROPERTIES EXPORT_NAME studio)
+endif()
 install(EXPORT crt_static NAMESPACE crt:: FILE crtStaticTargets.cmake
   DESTINATION ${package_dir} COMPONENT development)
 if(CMAKE_STRIP)

@@ -4,8 +4,8 @@
 # A name may hide one of another source, though. Whether it does within a source, other builds say.
 target_compile_options(crt_compile INTERFACE -Wno-shadow)
 
-foreach(target crt_core crt_lang crt_farm crt_capi_objects crt_format crt_service crt_lsp crt_trade
-  crt_studio_parts crt)
+foreach(target crt_core crt_lang crt_farm crt_capi_objects crt_format crt_service crt_source
+  crt_lsp crt_trade crt_studio crt)
   if(NOT TARGET ${target})
     continue()
   endif()

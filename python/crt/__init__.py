@@ -26,6 +26,7 @@ from .expressions import Expression
 from .images import Image
 from .jobs import Job
 from .meshes import Mesh, load_mesh
+from .notebooks import Live
 from .primitives import (
     Blob,
     Box,
@@ -70,6 +71,8 @@ from .values import (
     Settings,
 )
 
+live = Live
+
 __all__ = [
     "AmbientModel",
     "ApertureShape",
@@ -104,6 +107,7 @@ __all__ = [
     "Job",
     "Light",
     "LightType",
+    "Live",
     "Material",
     "Mesh",
     "MissingFileError",
@@ -132,6 +136,7 @@ __all__ = [
     "difference",
     "farm",
     "intersection",
+    "live",
     "load_mesh",
     "ray",
     "rays",

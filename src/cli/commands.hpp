@@ -23,6 +23,7 @@ ExitCode run_new(const NewRequest& request);
 ExitCode run_check(const CheckRequest& request);
 
 /// Lays scripts out as the formatter does, or says which are not.
+ExitCode run_export(const ExportRequest& request);
 ExitCode run_format(const FormatRequest& request);
 
 /// Serves an editor on standard input and output, until it ends that.

@@ -39,6 +39,7 @@ CommandTable watch_table(WatchRequest& request);
 CommandTable trade_table(TradeRequest& request);
 CommandTable check_table(CheckRequest& request);
 CommandTable new_table(NewRequest& request);
+CommandTable export_table(ExportRequest& request);
 CommandTable format_table(FormatRequest& request);
 CommandTable lsp_table();
 CommandTable studio_table(StudioRequest& request);

@@ -56,6 +56,9 @@ int parse_threads(const std::string& text);
 /// Returns a power of 2 that Settings::max_samples can be.
 int parse_sample_count(const std::string& option, const std::string& text);
 
+/// Returns what "HOST:PORT" says. Without a port it is that of the viewer tev.
+NetworkAddress parse_display(const std::string& text);
+
 /// Returns "depth,normal,...".
 std::string all_aov_names();
 /// Adds the channels of a list to those that are asked for.

@@ -40,6 +40,7 @@ constexpr std::string_view main_footer = R"(Examples:
   crt trade scene.crt --budget 10            shows which settings give most for ten seconds
   crt check scene.crt                        reports what is wrong with a script, renders nothing
   crt format scene.crt                       lays the script out
+  crt export scene.crt -o scene.cpp          writes a program that makes the same picture
 
 'crt help render' lists all options. Every setting of a script is an option, too.
 
@@ -233,6 +234,8 @@ Request parse_command_line(int argc, const char* const* argv) {
   const CLI::App& check = add_command(app, check_table(check_request));
   NewRequest new_request;
   const CLI::App& create = add_command(app, new_table(new_request));
+  ExportRequest export_request;
+  const CLI::App& exporting = add_command(app, export_table(export_request));
   FormatRequest format_request;
   const CLI::App& format = add_command(app, format_table(format_request));
   const CLI::App& lsp = add_command(app, lsp_table());
@@ -263,6 +266,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   if (man.parsed()) return ManRequest{describe_all(app)};
   if (check.parsed()) return check_request;
   if (create.parsed()) return new_request;
+  if (exporting.parsed()) return export_request;
   if (format.parsed()) return format_request;
   if (lsp.parsed()) return LspRequest{};
   if (studio.parsed()) return studio_request;

@@ -5,6 +5,7 @@
 
 #include <crt/render.hpp>
 #include <crt/script.hpp>
+#include <crt/source_code.hpp>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -52,6 +53,12 @@ struct PictureRequest : CommonRequest {
   bool reproducible = false;
 };
 
+/// A NetworkAddress is where a program listens.
+struct NetworkAddress {
+  std::string host;
+  int port = 0;
+};
+
 struct RenderRequest : PictureRequest {
   std::vector<std::filesystem::path> scenes;
   std::optional<FrameRange> frames;
@@ -59,7 +66,8 @@ struct RenderRequest : PictureRequest {
   std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
-  bool show = false;  ///< in the terminal
+  bool show = false;                      ///< in the terminal
+  std::optional<NetworkAddress> display;  ///< of a viewer that shows pictures in progress
 };
 
 struct WatchRequest : PictureRequest {
@@ -118,6 +126,14 @@ struct NewRequest : CommonRequest {
   std::filesystem::path scene;
 };
 
+/// An ExportRequest asks for source code.
+struct ExportRequest : CommonRequest {
+  std::filesystem::path scene;
+  std::filesystem::path output;            ///< empty for standard output
+  std::optional<SourceLanguage> language;  ///< without it the ending of the output says it
+  std::optional<int> entity;               ///< writes this one alone
+};
+
 struct FormatRequest : CommonRequest {
   std::vector<std::filesystem::path> scenes;  ///< "-" stands for the standard streams
   bool check = false;
@@ -131,6 +147,7 @@ struct StudioRequest : CommonRequest {
   std::filesystem::path scene;  ///< a script or a folder; empty for the current folder
   int port = 0;                 ///< 0 takes one that is free
   int threads = 0;
+  bool embed = false;  ///< in a frame of another page, until standard input ends
 };
 
 /// Asks for the completions of all commands in a shell.
@@ -147,7 +164,7 @@ struct ManRequest {
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
 using Request = std::variant<RenderRequest, FarmRequest, WatchRequest, CheckRequest, TradeRequest,
-                             NewRequest, FormatRequest, LspRequest, StudioRequest,
+                             NewRequest, ExportRequest, FormatRequest, LspRequest, StudioRequest,
                              CompletionsRequest, ManRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);

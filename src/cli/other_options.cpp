@@ -1,5 +1,5 @@
-// The options of `crt trade`, `crt check`, `crt new`, `crt format`, `crt lsp`, `crt studio` and the
-// commands about the command itself.
+// The options of `crt trade`, `crt check`, `crt new`, `crt export`, `crt format`, `crt lsp`,
+// `crt studio` and the commands about the command itself.
 #include <fmt/format.h>
 
 #include <string_view>
@@ -102,6 +102,53 @@ CommandTable new_table(NewRequest& request) {
   return table;
 }
 
+CommandTable export_table(ExportRequest& request) {
+  CommandTable table{
+      .name = "export",
+      .about = "Writes a script's scene as a program in C++, Python or C.",
+      .footer = R"(The program renders the same picture, byte for byte, to the file that its first
+argument names. What makes the scene is a function in it, make_scene(). It has the numbers that the
+script computes, and no loops or macros. Meshes and images are in it as numbers, up to 16 MiB.
+
+Examples:
+  crt export scene.crt -o scene.cpp         the ending says the language: .cpp, .py or .c
+  crt export scene.crt --as python          to standard output
+  crt export scene.crt --entity 0 --as c    a function that makes the first entity)",
+      .rows = {}};
+  std::vector<OptionRow>& rows = table.rows;
+  add_scene_row(rows, request.scene, "the script; - is standard input");
+  rows.push_back({.names = "-o,--output",
+                  .type = "FILE",
+                  .help = "the program (default: standard output)",
+                  .take = into_path(request.output)});
+  rows.push_back({.names = "--as",
+                  .type = "cpp|python|c",
+                  .help = "the language (default: as the ending says, or else cpp)",
+                  .take = [&request](const std::string& name) {
+                    if (name == "cpp") {
+                      request.language = SourceLanguage::cpp;
+                    } else if (name == "python") {
+                      request.language = SourceLanguage::python;
+                    } else if (name == "c") {
+                      request.language = SourceLanguage::c;
+                    } else {
+                      throw WrongValue("--as", "cpp, python or c", name);
+                    }
+                  }});
+  rows.push_back({.names = "--entity",
+                  .type = "N",
+                  .help = "writes only the entity at this place in the scene, from 0 on",
+                  .take = [&request](const std::string& text) {
+                    int place = 0;
+                    if (!parse_whole(text, place) || place < 0)
+                      throw WrongValue("--entity", "a whole number from 0 on", text);
+                    request.entity = place;
+                  }});
+  add_script_rows(rows, request);
+  add_setting_rows(rows, request.script);
+  return table;
+}
+
 CommandTable format_table(FormatRequest& request) {
   CommandTable table{.name = "format",
                      .about = "Lays scripts out: indentation, blanks, blank lines, comments.",
@@ -149,6 +196,11 @@ docs/studio.md says how it is used, also from another machine.)",
                               request.port > highest)
                             throw WrongValue("--port", "a whole number from 1 to 65535", text);
                         }});
+  table.rows.push_back({.names = "--embed",
+                        .type = "",
+                        .help = "lets pages of this machine show it in a frame, as notebooks do, "
+                                "and ends when standard input does",
+                        .take = into_flag("--embed", request.embed)});
   add_threads_row(table.rows, request.threads);
   return table;
 }

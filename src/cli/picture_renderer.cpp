@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <crt/job.hpp>
 #include <crt/prepared_scene.hpp>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -27,11 +29,36 @@ ScriptResult run_scene(const ScriptSource& script, const ScriptOptions& options,
 
 namespace {
 
+/// Renders, and shows the picture meanwhile if there is a viewer. What that does or fails to do
+/// changes nothing else.
+Image render_shown(const PreparedScene& prepared, const RenderOptions& options,
+                   const PictureTask& task) {
+  if (task.viewer == nullptr || task.viewer->is_lost()) return render(prepared, options);
+  constexpr std::chrono::milliseconds end_interval{5};
+  constexpr int looks_of_a_picture = 40;
+  const crt::RenderJob job(prepared, options);
+  for (int look = 1; !job.finished(); ++look) {
+    std::this_thread::sleep_for(end_interval);
+    if (look % looks_of_a_picture == 0 && !task.viewer->is_lost())
+      task.viewer->show(task.name, job.snapshot());
+  }
+  Image image = job.wait();
+  task.viewer->show(task.name, image);
+  task.viewer->finish();
+  return image;
+}
+
+void warn_of_viewer(const PictureTask& task, Reporter& reporter) {
+  if (task.viewer == nullptr) return;
+  if (const auto failure = task.viewer->failure()) reporter.warn(*failure);
+}
+
 Image trace(const Scene& scene, const PictureTask& task, const FormatLoader& loader,
-            std::vector<std::string>& warnings) {
+            std::vector<std::string>& warnings, Reporter& reporter) {
   const auto go_on = [&] { return task.go_on() && !loader.has_failed(); };
   const PreparedScene prepared =
       prepare(scene, {.go_on = go_on, .max_primitives = task.request.max_primitives});
+  warn_of_viewer(task, reporter);
   RenderOptions options = task.request.render;
   options.log = [&](LogLevel level, std::string_view line) {
     if (level == LogLevel::warning) warnings.emplace_back(line);
@@ -41,7 +68,7 @@ Image trace(const Scene& scene, const PictureTask& task, const FormatLoader& loa
     progress.update(share);
     return go_on();
   };
-  return render(prepared, options);
+  return render_shown(prepared, options, task);
 }
 
 }  // namespace
@@ -50,7 +77,8 @@ Image render_scene(const Scene& scene, const PictureTask& task, Reporter& report
   FormatLoader loader(task.picture);
   std::vector<std::string> warnings;
   try {
-    Image image = trace(scene, task, loader, warnings);
+    Image image = trace(scene, task, loader, warnings, reporter);
+    warn_of_viewer(task, reporter);
     loader.finish();
     for (const std::string& warning : warnings) reporter.warn(warning);
     return image;

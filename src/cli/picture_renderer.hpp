@@ -12,6 +12,7 @@
 #include "cli/progress.hpp"
 #include "cli/reporter.hpp"
 #include "cli/script_source.hpp"
+#include "cli/tev_viewer.hpp"
 
 namespace crt::cli {
 
@@ -28,6 +29,7 @@ struct PictureTask {
   std::string name;               ///< for messages
   ProgressStyle style = ProgressStyle::none;
   std::function<bool()> go_on;  ///< false gives it up
+  TevViewer* viewer = nullptr;  ///< shows the picture in progress under the name
 };
 
 /// Prepares and renders a scene, and loads what writing the picture needs meanwhile. Warnings are

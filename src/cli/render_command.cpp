@@ -39,6 +39,7 @@ class RenderJob {
     if (!pictures) return reporter_.finish();
     const InterruptScope interrupt;
     interrupt_ = &interrupt;
+    if (request_.display) viewer_.emplace(*request_.display);
     bool all_done = true;
     for (const PlannedPicture& picture : *pictures) {
       all_done = render_planned(picture) && all_done;
@@ -168,7 +169,8 @@ class RenderJob {
                            .picture = output == standard_stream ? usual_name() : output,
                            .name = name,
                            .style = style_,
-                           .go_on = go_on};
+                           .go_on = go_on,
+                           .viewer = viewer_ ? &*viewer_ : nullptr};
     Image image = render_scene(*scene, task, reporter_);
     image.stats().parse_seconds = parse_seconds;
     return image;
@@ -232,6 +234,7 @@ class RenderJob {
   Reporter reporter_;
   ProgressStyle style_;
   const InterruptScope* interrupt_ = nullptr;
+  std::optional<TevViewer> viewer_;
   Projection projection_{};
   bool has_warned_ = false;
   std::vector<PictureReport> reports_;

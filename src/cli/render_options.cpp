@@ -148,6 +148,11 @@ CommandTable render_table(RenderRequest& request) {
                   .type = "",
                   .help = "shows the picture in the terminal, too",
                   .take = into_flag("--show", request.show)});
+  rows.push_back(
+      {.names = "--display",
+       .type = "HOST:PORT",
+       .help = "sends the picture in progress to the viewer tev, which listens there",
+       .take = [&request](const std::string& text) { request.display = parse_display(text); }});
   add_reproducible(rows, request);
   add_setting_rows(rows, request.script);
   return table;

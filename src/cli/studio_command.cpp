@@ -54,8 +54,11 @@ ExitCode run_studio(const StudioRequest& request) {
   std::string port = fmt::format("{}", request.port);
   std::string threads = fmt::format("{}", request.threads);
   std::string name = "crt-studio";
-  const std::array<char*, 6> words{name.data(), folder_name.data(), script.data(),
-                                   port.data(), threads.data(),     nullptr};
+  std::string embed = "embed";
+  const std::array<char*, 7> words{name.data(),    folder_name.data(),
+                                   script.data(),  port.data(),
+                                   threads.data(), request.embed ? embed.data() : nullptr,
+                                   nullptr};
   execvp(program.c_str(), words.data());
   const int error = errno;
   reporter.add(

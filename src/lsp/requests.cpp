@@ -1,10 +1,10 @@
 #include "lsp/requests.hpp"
 
 #include <algorithm>
+#include <crt/language_service.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "format/format.hpp"
 #include "lsp/json_values.hpp"
 #include "lsp/semantic_tokens.hpp"
 #include "lsp/uri.hpp"
@@ -205,7 +205,7 @@ json Requests::tokens(const json& params) {
 
 json Requests::formatting(const json& params) {
   const Document& document = document_of(params);
-  const auto formatted = format::format_script(document.text(), document.name).text;
+  const auto formatted = format_script(document.text(), document.name).text;
   if (!formatted) return nullptr;
   return edits_json(*document.source, *formatted, workspace_.encoding());
 }

@@ -40,6 +40,27 @@ bool is_utf8(std::string_view text) {
   return expected == 0;
 }
 
+/// Reads at most so many bytes of a file as a script may have, and one more. Nothing if it fails.
+std::optional<std::string> read_some(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(Folder::longest_script + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream.eof() && stream.fail()) return std::nullopt;
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+fs::path typed_file_of(const fs::path& script) {
+  return script.parent_path() / ("." + script.filename().string() + ".typed");
+}
+
+/// Says whether something may be written to or removed: it is no link that may lead elsewhere.
+bool is_plain_or_missing(const fs::path& file) {
+  std::error_code failed;
+  const fs::file_status status = fs::symlink_status(file, failed);
+  return fs::is_regular_file(status) || status.type() == fs::file_type::not_found;
+}
+
 }  // namespace
 
 Folder::Folder(const fs::path& path) {
@@ -69,20 +90,43 @@ std::string Folder::read(std::string_view name) const {
   std::error_code failed;
   if (!fs::is_regular_file(file, failed))
     throw Error(ErrorCode::io, "there is no script '" + std::string(name) + "'");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(longest_script + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.eof() && stream.fail())
-    throw Error(ErrorCode::io, "'" + std::string(name) + "' cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > longest_script)
+  std::optional<std::string> text = read_some(file);
+  if (!text) throw Error(ErrorCode::io, "'" + std::string(name) + "' cannot be read");
+  if (text->size() > longest_script)
     throw Error(ErrorCode::limit, "'" + std::string(name) + "' is longer than 4 MiB");
-  if (!is_utf8(text)) throw Error(ErrorCode::limit, "'" + std::string(name) + "' is not in UTF-8");
-  return text;
+  if (!is_utf8(*text)) throw Error(ErrorCode::limit, "'" + std::string(name) + "' is not in UTF-8");
+  return std::move(*text);
 }
 
 void Folder::write(std::string_view name, std::string_view text) const {
   write_file(file_of(name), text);
+}
+
+void Folder::keep_typed(std::string_view name, std::string_view text) const {
+  const fs::path file = typed_file_of(file_of(name));
+  if (!is_plain_or_missing(file))
+    throw Error(ErrorCode::io, "'" + file.string() + "' is no plain file");
+  write_file(file, text);
+}
+
+std::optional<std::string> Folder::typed(std::string_view name) const {
+  const fs::path script = file_of(name);
+  const fs::path file = typed_file_of(script);
+  std::error_code failed;
+  if (!fs::is_regular_file(fs::symlink_status(file, failed))) return std::nullopt;
+  const fs::file_time_type kept = fs::last_write_time(file, failed);
+  if (failed) return std::nullopt;
+  const fs::file_time_type saved = fs::last_write_time(script, failed);
+  if (!failed && saved > kept) return std::nullopt;
+  std::optional<std::string> text = read_some(file);
+  if (!text || text->size() > longest_script || !is_utf8(*text)) return std::nullopt;
+  return text;
+}
+
+void Folder::forget_typed(std::string_view name) const {
+  const fs::path file = typed_file_of(file_of(name));
+  std::error_code failed;
+  if (is_plain_or_missing(file)) fs::remove(file, failed);
 }
 
 std::vector<std::string> Folder::scripts() const {

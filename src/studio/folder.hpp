@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,14 @@ class Folder {
 
   /// Writes a script, whole or not at all. Throws Error as file_of() does, and io.
   void write(std::string_view name, std::string_view text) const;
+
+  /// Keeps beside a script what was typed and not saved, in `.NAME.crt.typed`. It throws as
+  /// write().
+  void keep_typed(std::string_view name, std::string_view text) const;
+  /// Returns what was kept beside a script if that is not newer. Throws Error as file_of() does.
+  std::optional<std::string> typed(std::string_view name) const;
+  /// Removes what was kept beside a script, if there is anything. Throws Error as file_of() does.
+  void forget_typed(std::string_view name) const;
 
   /// Lists the scripts in the folder and those in it, in the order of their names.
   std::vector<std::string> scripts() const;

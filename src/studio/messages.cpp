@@ -4,6 +4,7 @@
 #include <array>
 #include <crt/error.hpp>
 #include <crt/query.hpp>
+#include <crt/source_code.hpp>
 #include <crt/validate.hpp>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -24,6 +25,7 @@ constexpr std::array<const char*, 7> completion_kinds = {
     "attribute", "object", "variable", "macro", "function", "constant", "keyword"};
 constexpr std::array<const char*, 6> phases = {"script", "preparing", "rendering",
                                                "done",   "cancelled", "failed"};
+constexpr std::array<const char*, 3> languages = {"cpp", "python", "c"};
 constexpr std::array<const char*, 4> projections = {"pinhole", "spherical", "cylindrical",
                                                     "orthographic"};
 
@@ -78,6 +80,27 @@ TextSpan span_of(std::string_view text, const SourcePlace& place) {
   begin = step(begin, place.column - 1);
   return {static_cast<std::uint32_t>(begin),
           static_cast<std::uint32_t>(step(begin, std::max(place.length, 1)))};
+}
+
+Utf16Places places_of(const View& view) {
+  return Utf16Places(view.revision.text ? std::string_view(*view.revision.text) : "");
+}
+
+/// Returns the first entity that comes from within a piece of the text, or else around it.
+std::size_t entity_within(const View& view, std::uint32_t begin, std::uint32_t end) {
+  const Utf16Places places = places_of(view);
+  const TextSpan piece{places.byte_of(begin), places.byte_of(end)};
+  const auto is_within = [](const TextSpan& inner, const TextSpan& outer) {
+    return outer.begin <= inner.begin && inner.end <= outer.end;
+  };
+  for (std::size_t i = 0; i < view.places.size(); ++i) {
+    if (is_within(view.places[i].origin, piece) || is_within(view.places[i].statement, piece))
+      return i;
+  }
+  for (std::size_t i = 0; i < view.places.size(); ++i) {
+    if (is_within(piece, view.places[i].origin)) return i;
+  }
+  throw Error(ErrorCode::invalid_argument, "no entity of the scene comes from there");
 }
 
 json location_json(const Analysis& analysis, const ScriptLocation& location) {
@@ -151,6 +174,7 @@ json scene_message(const View& view) {
           {"memory", view.prepared.memory().total()},
           {"warnings", view.prepared.warnings()},
           {"isOverridden", view.camera_is_overridden},
+          {"readsTime", view.reads_time},
           {"camera",
            {{"position", vector_json(camera.position)},
             {"pointing", vector_json(camera.pointing)},
@@ -174,6 +198,7 @@ json finished_message(const Revision& revision, const Image& image) {
             {"intersection tests", stats.intersection_tests},
             {"exact fallbacks", stats.escalations},
             {"samples of a pixel (mean)", stats.samples_mean},
+            {"error of 95 of 100 pixels", stats.half_width_95},
             {"threads", stats.threads},
             {"seconds of preparing", stats.prepare_seconds},
             {"seconds of tracing", stats.trace_seconds},
@@ -239,7 +264,7 @@ json pick_json(const View& view, double x, double y) {
   const std::optional<Hit> hit = queries.intersect(ray);
   if (!hit || hit->entity_id >= view.places.size()) return nullptr;
   const EntityPlace& place = view.places[hit->entity_id];
-  const Utf16Places places(*view.revision.text);
+  const Utf16Places places = places_of(view);
   return {{"entity", hit->entity_id},
           {"revision", view.revision.number},
           {"distance", hit->t},
@@ -247,6 +272,24 @@ json pick_json(const View& view, double x, double y) {
           {"normal", vector_json(hit->normal)},
           {"statement", span_json(places, place.statement)},
           {"origin", span_json(places, place.origin)}};
+}
+
+json code_json(const View& view, const json& question) {
+  const auto language = question.at("language").get<std::string>();
+  const auto found = std::find(languages.begin(), languages.end(), language);
+  if (found == languages.end())
+    throw Error(ErrorCode::invalid_argument, "code is written in cpp, python or c");
+  const SourceOptions options{.language = static_cast<SourceLanguage>(found - languages.begin())};
+  SourceCode code;
+  if (!question.contains("span")) {
+    code = source_code(*view.original, options);
+  } else {
+    const json& span = question.at("span");
+    const std::size_t entity =
+        entity_within(view, span.at(0).get<std::uint32_t>(), span.at(1).get<std::uint32_t>());
+    code = source_code(view.original->entities.at(entity), options);
+  }
+  return {{"text", code.text}, {"warnings", code.warnings}};
 }
 
 Camera camera_of(const json& value) {

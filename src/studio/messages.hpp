@@ -28,6 +28,11 @@ nlohmann::json format_json(const Analysis& analysis);
 /// Answers which entity a place of the picture shows. It is null where there is none.
 nlohmann::json pick_json(const View& view, double x, double y);
 
+/// Answers with source code: that of the scene, or of the first entity that comes from a piece of
+/// the text. The question has `language`, and perhaps a `span`. Throws what the JSON library
+/// throws, and Error.
+nlohmann::json code_json(const View& view, const nlohmann::json& question);
+
 /// Reads a camera. Throws what the JSON library throws, and Error (invalid_argument).
 Camera camera_of(const nlohmann::json& value);
 

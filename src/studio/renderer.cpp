@@ -6,6 +6,9 @@
 #include <new>
 #include <utility>
 
+#include "studio/channel_picture.hpp"
+#include "studio/draft.hpp"
+
 namespace crt::studio {
 
 namespace {
@@ -26,28 +29,14 @@ constexpr std::uint32_t most_on_their_way = 2;
 /// A script prints so many lines at most.
 constexpr int most_lines = 1000;
 
-/// Returns a scene with the settings of a draft.
-Scene draft_of(Scene scene, int step) {
-  Settings& settings = scene.settings;
-  settings.width = std::max(1, settings.width / step);
-  settings.height = std::max(1, settings.height / step);
-  settings.supersampling = settings.dof_samples = 1;
-  settings.target_error = settings.time_budget = 0;
-  scene.camera.aperture = 0;
-  return scene;
-}
-
-/// Says whether a scene takes one sample a pixel, as the finest draft does.
-bool is_its_own_draft(const Scene& scene) {
-  const Settings& settings = scene.settings;
-  return settings.supersampling == 1 && settings.target_error == 0 && settings.time_budget == 0 &&
-         (settings.dof_samples == 1 || scene.camera.aperture == 0);
-}
-
 bool are_equal(const Camera& a, const Camera& b) {
   return a.position == b.position && a.pointing == b.pointing && a.fov == b.fov &&
          a.roll == b.roll && a.projection == b.projection && a.aperture == b.aperture &&
          a.focal_distance == b.focal_distance && a.aperture_shape == b.aperture_shape;
+}
+
+bool are_equal(const std::optional<Camera>& a, const std::optional<Camera>& b) {
+  return a && b ? are_equal(*a, *b) : a.has_value() == b.has_value();
 }
 
 /// Returns the entities under numbers that say their places, for hits to report.
@@ -75,12 +64,22 @@ Renderer::~Renderer() {
   thread_.join();
 }
 
-void Renderer::set_script(Revision revision) {
+void Renderer::set_script(Revision revision, std::optional<ViewOptions> options) {
   const std::lock_guard lock(mutex_);
   asked_script_ = std::move(revision);
+  if (options) asked_options_ = std::move(*options);
   is_cancelled_ = false;
   ++changes_;
   ++script_changes_;
+  changed_.notify_all();
+}
+
+void Renderer::set_options(ViewOptions options) {
+  const std::lock_guard lock(mutex_);
+  if (options.t != asked_options_.t) ++script_changes_;
+  asked_options_ = std::move(options);
+  is_cancelled_ = false;
+  ++changes_;
   changed_.notify_all();
 }
 
@@ -142,9 +141,13 @@ void Renderer::work() {
 
 void Renderer::render_newest() {
   bool script_is_new = false;
+  bool has_drafts = false;
   {
     const std::lock_guard lock(mutex_);
     script_is_new = script_changes_ != script_change_;
+    has_drafts = !script_is_new && are_equal(camera_, asked_camera_) &&
+                 differ_in_region_alone(options_, asked_options_);
+    options_ = asked_options_;
     script_change_ = script_changes_;
     change_ = changes_;
     revision_ = asked_script_;
@@ -154,17 +157,26 @@ void Renderer::render_newest() {
   if (script_is_new) {
     scene_.reset();
     prepared_.reset();
+    boxes_.reset();
     if (!run_script()) return;
   }
-  if (!scene_ || !prepare_scene()) return;
-  draw_drafts();
+  if (!scene_) return;
+  prepare_scene();
+  say(Phase::rendering);
+  if (!has_drafts) draw_drafts();
   render_whole();
 }
 
 bool Renderer::run_script() {
+  if (revision_.scene) {
+    take_scene(revision_.scene, revision_.places);
+    reads_time_ = false;
+    return true;
+  }
   say(Phase::script);
   int lines = 0;
   ScriptOptions options;
+  options.t = options_.t;
   options.go_on = [this] { return !script_is_old(); };
   options.print = [&](std::string_view line) {
     if (++lines < most_lines) events_.print(std::string(line));
@@ -176,35 +188,47 @@ bool Renderer::run_script() {
     say(Phase::failed, 0, "the script has errors");
     return false;
   }
+  take_scene(std::make_shared<const Scene>(std::move(*result.scene)),
+             std::move(result.entity_places));
+  reads_time_ = result.reads_time;
+  return true;
+}
+
+void Renderer::take_scene(std::shared_ptr<const Scene> scene, std::vector<EntityPlace> places) {
   // Whoever changes the script's camera wants to see that one.
-  if (script_camera_ && !are_equal(*script_camera_, result.scene->camera)) {
+  if (script_camera_ && !are_equal(*script_camera_, scene->camera)) {
     const std::lock_guard lock(mutex_);
     if (changes_ == change_) asked_camera_.reset();
     camera_.reset();
   }
-  script_camera_ = result.scene->camera;
-  scene_ = std::move(result.scene);
+  original_ = std::move(scene);
+  script_camera_ = original_->camera;
+  scene_ = *original_;
   scene_->entities = numbered(scene_->entities);
-  places_ = std::move(result.entity_places);
-  return true;
+  places_ = std::move(places);
 }
 
-bool Renderer::prepare_scene() {
+const std::vector<BoundingBox>& Renderer::boxes() {
+  if (!boxes_) boxes_ = boxes_of(*scene_);
+  return *boxes_;
+}
+
+void Renderer::prepare_scene() {
   if (!prepared_) say(Phase::preparing);
-  Scene scene = *scene_;
+  Scene scene = visible_scene(*scene_, places_, options_,
+                              [this]() -> const std::vector<BoundingBox>& { return boxes(); });
   if (camera_) scene.camera = *camera_;
   PrepareOptions options;
   options.earlier = prepared_ ? &*prepared_ : nullptr;
   options.go_on = [this] { return !script_is_old(); };
   prepared_ = prepare(scene, options);
-  auto view = std::make_shared<const View>(
-      View{revision_, std::move(scene), *prepared_, places_, camera_.has_value()});
+  auto view = std::make_shared<const View>(View{revision_, std::move(scene), *prepared_, places_,
+                                                camera_.has_value(), reads_time_, original_});
   {
     const std::lock_guard lock(mutex_);
     view_ = view;
   }
   events_.scene(*view);
-  return true;
 }
 
 int Renderer::first_step() const {
@@ -219,17 +243,17 @@ int Renderer::first_step() const {
 
 /// The first draft is always drawn, so that a camera that never rests is seen moving.
 void Renderer::draw_drafts() {
-  say(Phase::rendering);
   const int first = std::min(first_step(), coarsest_step);
-  const int last = is_its_own_draft(view_->scene) ? 2 : 1;
+  const bool has_last = is_its_own_draft(view_->scene) || is_geometric(options_.channel);
+  const int last = has_last ? 2 : 1;
   for (int step = first; step >= last && (step == first || !is_old()); step /= 2)
     draw_draft(step, step != first);
 }
 
 void Renderer::draw_draft(int step, bool may_be_cancelled) {
-  const Scene draft = draft_of(view_->scene, step);
-  RenderOptions options;
-  options.threads = threads_;
+  Scene draft = draft_of(view_->scene, step);
+  if (is_geometric(options_.channel)) draft.settings.recursion_depth = 0;
+  RenderOptions options = render_options();
   options.progress = [&](double) { return may_be_cancelled ? !is_old() : !script_is_old(); };
   const Clock::time_point begin = Clock::now();
   const Image image = render(prepare(draft, *prepared_), options);
@@ -245,11 +269,19 @@ void Renderer::draw_draft(int step, bool may_be_cancelled) {
   send(PictureKind::draft, image);
 }
 
-void Renderer::render_whole() {
-  if (is_old()) return say(Phase::cancelled);
+RenderOptions Renderer::render_options() const {
   RenderOptions options;
   options.threads = threads_;
-  RenderJob job(*prepared_, options);
+  options.aovs = aovs_of(options_.channel);
+  return options;
+}
+
+void Renderer::render_whole() {
+  if (is_old()) return say(Phase::cancelled);
+  const bool is_geometry = is_geometric(options_.channel);
+  RenderOptions options = render_options();
+  options.region = clipped(options_.region, view_->scene.settings);
+  RenderJob job(is_geometry ? prepare(geometry_of(view_->scene), *prepared_) : *prepared_, options);
   Clock::time_point last_look = Clock::now();
   while (!job.finished()) {
     {
@@ -268,18 +300,22 @@ void Renderer::render_whole() {
     last_look = Clock::now();
   }
   try {
-    auto image = std::make_shared<const Image>(job.wait());
-    {
-      const std::lock_guard lock(mutex_);
-      picture_ = image;
-    }
-    send(PictureKind::final, *image);
-    events_.finished(revision_, *image);
-    say(Phase::done, 1);
+    finish(std::make_shared<const Image>(job.wait()));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::cancelled) throw;
     say(Phase::cancelled, job.progress());
   }
+}
+
+void Renderer::finish(const std::shared_ptr<const Image>& image) {
+  const bool is_part = clipped(options_.region, view_->scene.settings).has_value();
+  if (!is_part && !is_geometric(options_.channel)) {
+    const std::lock_guard lock(mutex_);
+    picture_ = image;
+  }
+  send(is_part ? PictureKind::progress : PictureKind::final, *image);
+  events_.finished(revision_, *image);
+  say(Phase::done, 1);
 }
 
 bool Renderer::is_old() const {
@@ -309,10 +345,21 @@ bool Renderer::may_send() const {
 
 void Renderer::send(PictureKind kind, const Image& image) {
   const Settings& settings = view_->scene.settings;
-  events_.picture({kind, ++pictures_, revision_.number, static_cast<std::uint32_t>(settings.width),
-                   static_cast<std::uint32_t>(settings.height),
-                   static_cast<std::uint32_t>(image.width()),
-                   static_cast<std::uint32_t>(image.height()), image.to_rgba8()});
+  EncodedPicture picture{kind,
+                         ++pictures_,
+                         revision_.number,
+                         static_cast<std::uint32_t>(settings.width),
+                         static_cast<std::uint32_t>(settings.height),
+                         static_cast<std::uint32_t>(image.width()),
+                         static_cast<std::uint32_t>(image.height()),
+                         displayed(image, options_.channel)};
+  const std::optional<Region> region = clipped(options_.region, settings);
+  if (region && kind != PictureKind::draft) {
+    picture.rgba = placed(picture.rgba, *region, settings.width, settings.height);
+    picture.width = picture.full_width;
+    picture.height = picture.full_height;
+  }
+  events_.picture(picture);
 }
 
 }  // namespace crt::studio

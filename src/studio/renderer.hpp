@@ -17,14 +17,17 @@
 #include <vector>
 
 #include "studio/picture_frame.hpp"
+#include "studio/view_options.hpp"
 
 namespace crt::studio {
 
-/// A Revision is a version of the script.
+/// A Revision is a version of the script, or a scene that a program has made.
 struct Revision {
   std::uint32_t number = 0;
   std::string name;  ///< the script's path
   std::shared_ptr<const std::string> text;
+  std::shared_ptr<const Scene> scene{};  ///< what is shown if there is one, and no script is run
+  std::vector<EntityPlace> places{};     ///< of its entities in the text
 };
 
 /// A View is what is shown: a scene that was prepared, and where its entities come from.
@@ -34,6 +37,8 @@ struct View {
   PreparedScene prepared;
   std::vector<EntityPlace> places;
   bool camera_is_overridden = false;
+  bool reads_time = false;                  ///< as ScriptResult has it
+  std::shared_ptr<const Scene> original{};  ///< with the camera and the numbers that it came with
 };
 
 /// Says what the renderer does now.
@@ -63,7 +68,9 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  void set_script(Revision revision);
+  /// Takes a text, and with it the options if its places are meant by them.
+  void set_script(Revision revision, std::optional<ViewOptions> options = {});
+  void set_options(ViewOptions options);
   /// Replaces the script's camera, or gives that back.
   void set_camera(const std::optional<Camera>& camera);
   /// Says that the page has taken a picture.
@@ -84,13 +91,17 @@ class Renderer {
   void work();
   void render_newest();
   bool run_script();
-  bool prepare_scene();
+  void take_scene(std::shared_ptr<const Scene> scene, std::vector<EntityPlace> places);
+  void prepare_scene();
+  const std::vector<BoundingBox>& boxes();
   void draw_drafts();
   void render_whole();
   void draw_draft(int step, bool may_be_cancelled);
   int first_step() const;
   bool is_old() const;
   bool script_is_old() const;
+  RenderOptions render_options() const;
+  void finish(const std::shared_ptr<const Image>& image);
   void say(RenderState::Phase phase, double progress = 0, std::string message = {}) const;
   bool has_taken() const;
   bool may_send() const;
@@ -104,6 +115,7 @@ class Renderer {
   // What is asked for, by other threads.
   Revision asked_script_;
   std::optional<Camera> asked_camera_;
+  ViewOptions asked_options_;
   std::uint64_t script_changes_ = 0;
   std::uint64_t changes_ = 0;  ///< of anything
   bool is_cancelled_ = false;
@@ -117,9 +129,13 @@ class Renderer {
   std::uint64_t change_ = 0;
   Revision revision_;
   std::optional<Camera> camera_;
-  std::optional<Camera> script_camera_;  ///< of the last scene
-  std::optional<Scene> scene_;           ///< as the script has it
+  ViewOptions options_;
+  std::optional<Camera> script_camera_;    ///< of the last scene
+  std::shared_ptr<const Scene> original_;  ///< as the script has it
+  std::optional<Scene> scene_;             ///< with entities under numbers that say their places
   std::vector<EntityPlace> places_;
+  bool reads_time_ = false;
+  std::optional<std::vector<BoundingBox>> boxes_;  ///< of the scene, once they are needed
   std::optional<PreparedScene> prepared_;
   std::uint32_t pictures_ = 0;
   double pixels_a_second_ = 0;

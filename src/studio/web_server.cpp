@@ -1,6 +1,10 @@
 #include "studio/web_server.hpp"
 
+#include <unistd.h>
+
+#include <array>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/beast/core.hpp>
@@ -33,10 +37,13 @@ constexpr std::chrono::seconds request_timeout{30};
 /// A browser that does not take what it is sent is left.
 constexpr std::size_t most_waiting_bytes = std::size_t{256} << 20;
 
-constexpr const char* content_policy =
+const std::string content_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; style-src-attr 'unsafe-inline'; "
     "connect-src 'self'; img-src 'self' "
-    "blob: data:; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    "blob: data:; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors ";
+constexpr const char* no_frames = "'none'";
+constexpr const char* local_frames =
+    "http://localhost:* http://127.0.0.1:* https://localhost:* vscode-webview:";
 
 /// Anything that lives as long as its connection, and can be ended.
 class Session {
@@ -227,7 +234,8 @@ class Visit : public Session, public std::enable_shared_from_this<Visit> {
     response->set(http::field::content_type,
                   beast::string_view(file.type.data(), file.type.size()));
     response->set(http::field::cache_control, "no-store");
-    response->set("Content-Security-Policy", content_policy);
+    response->set("Content-Security-Policy",
+                  content_policy + (shared_->options.may_be_framed ? local_frames : no_frames));
     response->set("X-Content-Type-Options", "nosniff");
     response->set("Referrer-Policy", "no-referrer");
     response->set("Cross-Origin-Opener-Policy", "same-origin");
@@ -258,6 +266,7 @@ class WebServer::State {
   State(const WebServerOptions& options, MakeClient make_client)
       : acceptor_(context_),
         signals_(context_),
+        input_(context_),
         shared_(std::make_shared<Shared>(Shared{options, std::move(make_client)})) {
     try {
       const tcp::endpoint place(net::ip::make_address(options.address), options.port);
@@ -266,9 +275,12 @@ class WebServer::State {
       acceptor_.bind(place);
       acceptor_.listen();
       shared_->port = acceptor_.local_endpoint().port();
+      if (options.ends_with_input) input_.assign(dup(STDIN_FILENO));
       // Whoever has read the address may interrupt at once.
-      signals_.add(SIGINT);
-      signals_.add(SIGTERM);
+      if (options.ends_by_signals) {
+        signals_.add(SIGINT);
+        signals_.add(SIGTERM);
+      }
     } catch (const boost::system::system_error& error) {
       throw Error(ErrorCode::io, "cannot listen on " + options.address + ":" +
                                      std::to_string(options.port) + ": " + error.code().message());
@@ -281,6 +293,7 @@ class WebServer::State {
     signals_.async_wait([this](Code failed, int) {
       if (!failed) end();
     });
+    if (input_.is_open()) watch_input();
     accept();
     context_.run();
   }
@@ -302,8 +315,18 @@ class WebServer::State {
     });
   }
 
+  void watch_input() {
+    input_.async_wait(net::posix::stream_descriptor::wait_read, [this](Code failed) {
+      if (failed) return;
+      std::array<char, 256> unused;
+      if (read(input_.native_handle(), unused.data(), unused.size()) > 0) return watch_input();
+      end();
+    });
+  }
+
   void end() {
     Code ignored;
+    input_.close(ignored);
     acceptor_.close(ignored);
     signals_.cancel(ignored);
     for (Session* session : std::set<Session*>(shared_->sessions)) session->end();
@@ -312,6 +335,7 @@ class WebServer::State {
   net::io_context context_{1};
   tcp::acceptor acceptor_;
   net::signal_set signals_;
+  net::posix::stream_descriptor input_;
   std::shared_ptr<Shared> shared_;
 };
 

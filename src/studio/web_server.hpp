@@ -40,6 +40,12 @@ struct WebServerOptions {
   std::uint16_t port = 0;
   std::string token;
   std::map<std::string, PageFile, std::less<>> files{};  ///< by the path, "/" too
+  /// SIGINT and SIGTERM end run(). A program that has signals of its own leaves them alone.
+  bool ends_by_signals = true;
+  /// The end of standard input ends run(), too: a program that started this one has ended.
+  bool ends_with_input = false;
+  /// Pages of this machine may show the page in a frame, as notebooks do.
+  bool may_be_framed = false;
   std::size_t most_connections = 64;
   std::size_t most_clients = 16;
   std::size_t longest_message = std::size_t{16} << 20;
@@ -49,8 +55,8 @@ class WebServer {
  public:
   using MakeClient = std::function<std::unique_ptr<Client>(std::shared_ptr<Connection>)>;
 
-  /// Listens at once, and takes note of signals from then on. Throws Error (io) if the address or
-  /// port cannot be had.
+  /// Listens at once, and takes note of signals from then on if they are to end it. Throws Error
+  /// (io) if the address or port cannot be had.
   WebServer(const WebServerOptions& options, MakeClient make_client);
   ~WebServer();
   WebServer(const WebServer&) = delete;
@@ -58,7 +64,8 @@ class WebServer {
 
   std::uint16_t port() const;
 
-  /// Serves until SIGINT or SIGTERM comes, or stop() is called. Then all connections are closed.
+  /// Serves until stop() is called, or a signal comes if that is to end it. Then all connections
+  /// are closed.
   void run();
   /// Ends run(). Any thread may call it.
   void stop();

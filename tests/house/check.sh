@@ -57,7 +57,9 @@ check_layers() {
     [[ -n $later ]] || continue
     lines_with "^#include [<\"]core/($later)/" "src/core/${layers[position]}/*"
   done
-  lines_with '^#include [<"](lang|farm|cli|capi|format|service|lsp|studio)/' 'src/core/*'
+  lines_with '^#include [<"](lang|farm|cli|capi|format|service|source|lsp|studio)/' 'src/core/*'
+  # Source code is written of scenes, however they were made.
+  lines_with '^#include [<"](lang|farm|cli|capi|format|service|lsp|studio)/' 'src/source/*'
   # Jobs use the renderer and run scripts as any program does.
   lines_with '^#include [<"](lang|cli|capi|format|service|lsp|studio)/' 'src/farm/*'
   lines_with '^#include [<"]farm/' 'src/lang/*' 'src/format/*' 'src/service/*' 'src/lsp/*' \
@@ -70,12 +72,11 @@ check_layers() {
   lines_with '^#include [<"](format|service|lsp|studio|cli)/' 'src/capi/*'
   lines_with '^#include [<"](service|lsp|studio|cli|capi)/' 'src/format/*'
   lines_with '^#include [<"](lsp|studio|cli|capi)/' 'src/service/*'
-  lines_with '^#include [<"](studio|cli|capi)/' 'src/lsp/*'
+  lines_with '^#include [<"](format|studio|cli|capi)/' 'src/lsp/*'
   lines_with '^#include [<"](lang|format|service|lsp|cli|capi)/' 'src/studio/*'
   lines_with '^#include [<"](lang|format|service|lsp|studio)/' 'src/cli/*' |
     without '"(format/format|lsp/server)\.hpp"'
-  lines_with '^#include [<"]format/' 'src/lsp/*' 'src/service/*' |
-    without '"format/format\.hpp"'
+  lines_with '^#include [<"]format/' 'src/service/*' | without '"format/format\.hpp"'
 }
 
 # only_in REGEX FOLDER... prints includes of a library that stand outside its folders.
@@ -96,11 +97,14 @@ check_public_only() {
 }
 
 # crt.hpp holds every public header but those that belong to libraries beside crt::core: crt::lang,
-# crt::farm and crt::service.
+# crt::farm, crt::service, crt::source and crt::studio.
 check_umbrella() {
   local header
   tracked 'include/crt/*.hpp' | while IFS= read -r header; do
-    case ${header##*/} in crt.hpp | script.hpp | farm.hpp | language_service.hpp) continue ;; esac
+    case ${header##*/} in
+      crt.hpp | script.hpp | farm.hpp | language_service.hpp) continue ;;
+      source_code.hpp | studio.hpp) continue ;;
+    esac
     grep -qF "#include <crt/${header##*/}>" include/crt/crt.hpp || echo "$header is not in crt.hpp"
   done
 }
@@ -204,7 +208,8 @@ lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
 lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
   without '^src/(lsp/(server|requests|json_values)|farm/manifest)\.cpp:' |
-  without '^src/studio/(messages|studio_client)\.cpp:' |
+  without '^src/studio/(messages|view_messages|listing|scene_server)\.cpp:' |
+  without '^src/studio/(studio_client|view_client)\.cpp:' |
   complain "JSON outside the sources that have to wait for it"
 lines_with '^#include <boost/' "${code[@]}" | without '^src/studio/web_server\.cpp:' |
   complain "Boost outside src/studio/web_server.cpp: one source is enough to wait for"
@@ -216,10 +221,11 @@ tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once'
 lines_with '#include <format>|std::views::|std::ranges::views' "${code[@]}" |
   complain "Not with the compilers that we support"
 lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' \
-  'src/service/*' 'src/lsp/*' |
+  'src/service/*' 'src/source/*' 'src/lsp/*' |
   complain "The library reads the environment"
 lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' 'src/core/*' \
-  'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/service/*' 'src/lsp/*' |
+  'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/service/*' 'src/source/*' 'src/lsp/*' |
+  without '^src/source/templates\.hpp:' | # programs that are written may do so
   complain "The library prints or ends the process: log to a callback, throw crt::Error"
 lines_with '\b(TODO|FIXME|XXX|HACK)\b' \
   "${code[@]}" "${users[@]}" 'examples/*' '*.cmake' '*CMakeLists.txt' |

@@ -163,6 +163,13 @@ class Client:
         self.send(type="pick", id=self.ids, x=x, y=y)
         return self.wait("answer", lambda answer: answer["id"] == self.ids)["result"]
 
+    def code(self, language, span=None):
+        """Asks for source code of the scene, or of what comes from a piece of the text."""
+        self.ids += 1
+        piece = {} if span is None else {"span": span}
+        self.send(type="code", id=self.ids, language=language, **piece)
+        return self.wait("answer", lambda answer: answer["id"] == self.ids)["result"]
+
     def finish(self):
         """Waits for the picture of the newest text."""
         return self.wait("finished", lambda message: message["revision"] == self.revision)

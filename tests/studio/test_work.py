@@ -268,6 +268,23 @@ class Work(unittest.TestCase):
         client.wait("saved")
         self.assertEqual((self.folder / "a.crt").read_bytes(), b"a = 1\r\nb = 3\r\n")
 
+    def test_scenes_and_entities_become_source_code(self):
+        client = self.start()
+        client.finish()
+        whole = client.code("cpp")["text"]
+        self.assertEqual(whole.count("Sphere{"), 2)
+        self.assertNotIn("with_id", whole)
+        place = units(SCENE[: SCENE.index("Sphere { center -> vec3(1")])
+        one = client.code("python", [place, place + 3])["text"]
+        self.assertIn("crt.Sphere(center=(1, 0, 0), radius=0.5)", one)
+        self.assertEqual(one.count("Sphere"), 1)
+        statement = units(SCENE[: SCENE.index("ball(-1)")])
+        of_macro = client.code("c", [statement, statement + len("ball(-1)")])["text"]
+        self.assertIn("crt_sphere_create((const double[]){-1, 0, 0}, 0.7", of_macro)
+        for wrong in ({"language": "cobol"}, {"language": "c", "span": [0, 3]}):
+            client.send(type="code", id=99, **wrong)
+            self.assertEqual(client.wait("error")["id"], 99)
+
 
 if __name__ == "__main__":
     unittest.main()

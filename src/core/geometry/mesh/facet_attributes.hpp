@@ -68,6 +68,9 @@ class FacetAttributes {
   template <class Real>
   void weights_to_uv(std::uint32_t facet, Real& u, Real& v) const;
 
+  const CornerNormals& normals() const { return normals_; }
+  const CornerValues<2>& uv() const { return uv_; }
+
   /// Returns the materials, of which there are none if has_materials() is false.
   std::span<const SharedMaterial> materials() const { return materials_; }
   /// Returns the number of a facet's material, from 1 on, or 0 for the default one.

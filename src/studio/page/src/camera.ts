@@ -6,7 +6,7 @@ const add = (a: Vector, b: Vector): Vector => [a[0] + b[0], a[1] + b[1], a[2] + 
 const scale = (a: Vector, s: number): Vector => [a[0] * s, a[1] * s, a[2] * s];
 export const subtract = (a: Vector, b: Vector): Vector => add(a, scale(b, -1));
 export const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a: Vector, b: Vector): Vector =>
+export const cross = (a: Vector, b: Vector): Vector =>
   [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const length = (a: Vector): number => Math.sqrt(dot(a, a));
 export const unit = (a: Vector): Vector => scale(a, 1 / length(a));

@@ -25,8 +25,8 @@ const longestGesture = 60_000;
 const typingPause = 500;
 
 export interface EditorHost {
-  /** Takes each new text, and says what its revision is. */
-  changed(text: string): void;
+  /** Takes each new text, and how it came from the one before. Without that it is another one. */
+  changed(text: string, changes: ChangeDesc | null): void;
   moved(place: number): void;
   ask(what: string, at: number): Promise<unknown>;
   save(): void;
@@ -114,6 +114,8 @@ const completionTypes: Record<string, string> = {
 export class Editor {
   readonly element = document.createElement('div');
   readonly view: EditorView;
+  /** Holds from the next text on. */
+  isReadOnly = false;
   private lastTyped = 0;
   private readonly plugin = ViewPlugin.fromClass(Highlighter, {decorations: (p) => p.decorations});
 
@@ -132,7 +134,7 @@ export class Editor {
   /** Replaces all, without a way back. */
   open(text: string): void {
     this.view.setState(EditorState.create({doc: text, extensions: this.extensions()}));
-    this.host.changed(this.text);
+    this.host.changed(this.text, null);
   }
 
   setTokens(tokens: number[]): void {
@@ -159,6 +161,7 @@ export class Editor {
 
   /** Makes edits that are undone as one. Those of one gesture are one, too. */
   edit(changes: {from: number; to: number; insert: string}[]): void {
+    if (this.isReadOnly) return;
     this.view.dispatch({changes, annotations: Transaction.userEvent.of(gestureEvent)});
   }
 
@@ -204,6 +207,7 @@ export class Editor {
       indentOnInput(), indentUnit.of('    '), bracketMatching(), search({top: true}),
       highlightSelectionMatches(), lintGutter(), this.plugin, theme,
       EditorView.contentAttributes.of({'aria-label': 'Script'}),
+      EditorState.readOnly.of(this.isReadOnly),
       autocompletion({icons: false, override: [(context) => this.complete(context)]}),
       hoverTooltip((_view, place) => this.hover(place)),
       EditorView.domEventHandlers({
@@ -222,7 +226,7 @@ export class Editor {
         indentWithTab,
       ]),
       EditorView.updateListener.of((update) => {
-        if (update.docChanged) this.host.changed(this.text);
+        if (update.docChanged) this.host.changed(this.text, update.changes);
         // Where the cursor is in a new text is seen when that has been analysed.
         if (update.selectionSet && !update.docChanged)
           this.host.moved(update.state.selection.main.head);

@@ -1,12 +1,16 @@
 // The live view shows the pictures as they come, and turns gestures into cameras.
 
 import {dolly, orbit, pan, zoom} from './camera';
-import type {Camera, Frame} from './protocol';
+import {Comparison} from './comparison';
+import {Overlay} from './overlay';
+import type {Camera, Frame, Region} from './protocol';
 
 export interface ViewHost {
   cameraMoved(camera: Camera): void;
   cameraReset(): void;
   picked(x: number, y: number, focuses: boolean): void;
+  /** Takes the part of the picture that is to be refined, or null for all of it. */
+  regionChosen(region: Region | null): void;
 }
 
 const radiansAPixel = 0.01;
@@ -19,6 +23,8 @@ const clickPixels = 4;
 export class LiveView {
   readonly element = document.createElement('div');
   readonly canvas = document.createElement('canvas');
+  readonly overlay = new Overlay();
+  readonly comparison: Comparison;
   /** Counts the pictures that were shown, for tests. */
   shown = 0;
   lastKind = '';
@@ -28,6 +34,10 @@ export class LiveView {
   private asked: Camera | null = null;
   private readonly pointers = new Map<number, {x: number; y: number}>();
   private moved = 0;
+  /** Is where a region begins while it is dragged. */
+  private corner: {x: number; y: number} | null = null;
+  private readonly area = document.createElement('div');
+  private readonly frame = document.createElement('div');
 
   constructor(private readonly host: ViewHost) {
     this.element.className = 'live';
@@ -35,8 +45,13 @@ export class LiveView {
     this.canvas.setAttribute('role', 'img');
     this.canvas.setAttribute('aria-label',
       'Live view: drag or arrow keys turn, shift moves, wheel or plus and minus go nearer');
-    this.element.append(this.canvas);
-    new ResizeObserver(() => this.fit()).observe(this.element);
+    this.area.className = 'area';
+    this.frame.className = 'frame';
+    this.frame.append(this.canvas, this.overlay.element);
+    this.area.append(this.frame);
+    this.element.append(this.area);
+    this.comparison = new Comparison(this.canvas, this.frame);
+    new ResizeObserver(() => this.fit()).observe(this.area);
     const canvas = this.canvas;
     canvas.addEventListener('pointerdown', (event) => this.press(event));
     canvas.addEventListener('pointermove', (event) => this.drag(event));
@@ -48,7 +63,9 @@ export class LiveView {
   }
 
   setCamera(camera: Camera): void {
-    if (this.asked === null) this.camera = camera;
+    if (this.asked !== null) return;
+    this.camera = camera;
+    this.overlay.setCamera(camera);
   }
 
   show(frame: Frame): void {
@@ -56,6 +73,7 @@ export class LiveView {
     if (canvas.width !== frame.fullWidth || canvas.height !== frame.fullHeight) {
       canvas.width = frame.fullWidth;
       canvas.height = frame.fullHeight;
+      this.overlay.setSize(canvas.width, canvas.height);
       this.fit();
     }
     if (stage.width !== frame.width || stage.height !== frame.height ||
@@ -77,15 +95,33 @@ export class LiveView {
   }
 
   private fit(): void {
-    const {clientWidth, clientHeight} = this.element;
+    const {clientWidth, clientHeight} = this.area;
     const scale = Math.min(clientWidth / this.canvas.width, clientHeight / this.canvas.height);
-    this.canvas.style.width = `${Math.max(1, this.canvas.width * scale)}px`;
-    this.canvas.style.height = `${Math.max(1, this.canvas.height * scale)}px`;
+    this.frame.style.width = `${Math.max(1, this.canvas.width * scale)}px`;
+    this.frame.style.height = `${Math.max(1, this.canvas.height * scale)}px`;
+  }
+
+  /** Returns the place of an event in pixels of the picture. */
+  private placeOf(event: MouseEvent): {x: number; y: number} {
+    const box = this.canvas.getBoundingClientRect();
+    return {x: (event.clientX - box.left) / box.width * this.canvas.width,
+            y: (event.clientY - box.top) / box.height * this.canvas.height};
+  }
+
+  private regionTo(event: PointerEvent): Region {
+    const [a, b] = [this.corner!, this.placeOf(event)];
+    const within = (value: number, most: number) => Math.round(Math.max(0, Math.min(most, value)));
+    const [left, right] = [Math.min(a.x, b.x), Math.max(a.x, b.x)]
+      .map((x) => within(x, this.canvas.width)) as [number, number];
+    const [top, bottom] = [Math.min(a.y, b.y), Math.max(a.y, b.y)]
+      .map((y) => within(y, this.canvas.height)) as [number, number];
+    return {x: left, y: top, width: right - left, height: bottom - top};
   }
 
   /** Asks for pictures of a camera, the newest once a frame of the screen. */
   private move(camera: Camera): void {
     this.camera = camera;
+    this.overlay.setCamera(camera);
     const isFirst = this.asked === null;
     this.asked = camera;
     if (!isFirst) return;
@@ -101,6 +137,7 @@ export class LiveView {
     this.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
     if (this.pointers.size === 1) this.moved = 0;
+    this.corner = event.ctrlKey || event.metaKey ? this.placeOf(event) : null;
   }
 
   private drag(event: PointerEvent): void {
@@ -112,6 +149,7 @@ export class LiveView {
     this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
     this.moved += Math.abs(dx) + Math.abs(dy);
     if (this.moved < clickPixels) return;
+    if (this.corner) return this.overlay.setRegion(this.regionTo(event));
     const height = this.canvas.clientHeight;
     const other = others[0]?.[1];
     if (other) {  // two fingers: pinch, and move by half of what each moves
@@ -127,10 +165,14 @@ export class LiveView {
 
   private release(event: PointerEvent): void {
     const wasDown = this.pointers.delete(event.pointerId);
+    if (wasDown && this.corner && this.moved >= clickPixels) {
+      const region = this.regionTo(event);
+      this.corner = null;
+      return this.host.regionChosen(region.width > 0 && region.height > 0 ? region : null);
+    }
     if (!wasDown || this.moved >= clickPixels || event.button !== 0) return;
-    const box = this.canvas.getBoundingClientRect();
-    this.host.picked((event.clientX - box.left) / box.width * this.canvas.width,
-                     (event.clientY - box.top) / box.height * this.canvas.height, event.altKey);
+    const {x, y} = this.placeOf(event);
+    this.host.picked(x, y, event.altKey);
   }
 
   private wheel(event: WheelEvent): void {
@@ -157,6 +199,8 @@ export class LiveView {
       this.move(zoom(this.camera, event.key === '[' ? 0.95 : 1 / 0.95));
     } else if (event.key === 'Home') {
       this.host.cameraReset();
+    } else if (event.key === 'Escape') {
+      this.host.regionChosen(null);
     } else {
       return;
     }

@@ -1,6 +1,6 @@
-// The smaller panels: the console, the queue of renders, and statistics.
+// The smaller panels: the console and statistics.
 
-import type {Scene, State} from './protocol';
+import type {Scene} from './protocol';
 
 const mostLines = 2000;
 
@@ -22,39 +22,6 @@ export class Console {
     this.element.append(line);
     while (this.element.childElementCount > mostLines) this.element.firstElementChild!.remove();
     if (isAtEnd) this.element.scrollTop = this.element.scrollHeight;
-  }
-}
-
-const phases: Record<State['phase'], string> = {
-  script: 'Running the script', preparing: 'Preparing', rendering: 'Rendering', done: 'Done',
-  cancelled: 'Cancelled', failed: 'Not rendered'};
-
-export class Queue {
-  readonly element = document.createElement('div');
-  private readonly title = document.createElement('b');
-  private readonly bar = document.createElement('progress');
-  private readonly detail = document.createElement('span');
-  private readonly button = document.createElement('button');
-  private isRunning = false;
-
-  constructor(ask: (action: 'cancel' | 'restart') => void) {
-    this.element.className = 'queue';
-    this.bar.max = 1;
-    this.bar.setAttribute('aria-label', 'Progress of the render');
-    this.button.addEventListener('click', () => ask(this.isRunning ? 'cancel' : 'restart'));
-    this.element.append(this.title, this.bar, this.detail, this.button);
-    this.set({type: 'state', revision: 0, phase: 'done', progress: 0, seconds: 0, message: ''});
-  }
-
-  set(state: State): void {
-    this.isRunning = ['script', 'preparing', 'rendering'].includes(state.phase);
-    this.title.textContent = phases[state.phase];
-    this.bar.value = state.progress;
-    const left = state.progress > 0.02 ? state.seconds / state.progress - state.seconds : NaN;
-    this.detail.textContent = state.message !== '' ? state.message :
-      `${state.seconds.toFixed(2)} s` +
-      (state.phase === 'rendering' && left > 0.5 ? `, about ${left.toFixed(0)} s left` : '');
-    this.button.textContent = this.isRunning ? 'Cancel' : 'Render again';
   }
 }
 

@@ -1,9 +1,11 @@
 // The property sheet of an object. What it changes is the text of the script, where a value stands
 // there as it is. What is computed can be seen and not changed, and says why.
 
+import {apertureSpots} from './aperture';
 import {numberText, stringText, vectorText} from './numbers';
-import type {Attribute, ObjectDescription, TreeNode} from './protocol';
+import type {Attribute, AttributeDescription, ObjectDescription, TreeNode} from './protocol';
 import {markdown} from './markdown';
+import {choices, ranges} from './property_ranges';
 
 export interface SheetHost {
   /** Is called before the edits of a gesture. */
@@ -11,20 +13,27 @@ export interface SheetHost {
   edit(changes: {from: number; to: number; insert: string}[]): void;
   select(span: [number, number]): void;
   textOf(span: [number, number]): string;
+  /** Returns a picture of a ball of the material of an object, as an address, or null. */
+  ballOf(node: TreeNode): Promise<string | null>;
 }
 
 /** A drag of a pixel changes a number by such a share of it. */
 const dragShare = 0.01;
 
 export class PropertySheet {
+  /** For tests: what is known of attributes beside what the server says. */
+  static readonly known = {choices, ranges};
   readonly element = document.createElement('div');
   private objects = new Map<string, ObjectDescription>();
   private node: TreeNode | null = null;
+  private readonly ball = document.createElement('img');
   /** While a gesture or a field has the attention, the sheet is not made anew. */
   private isBusy = false;
 
   constructor(private readonly host: SheetHost) {
     this.element.className = 'sheet';
+    this.ball.className = 'ball';
+    this.ball.alt = 'A ball of the material';
     this.show(null);
   }
 
@@ -37,9 +46,17 @@ export class PropertySheet {
       node.span[0] === this.node.span[0] &&
       node.attributes.length === this.node.attributes.length;
     this.node = node;
+    if (node) void this.drawBall(node);
     const focused = this.element.contains(document.activeElement);
     if (isSame && (this.isBusy || focused)) return;
     this.draw();
+  }
+
+  private async drawBall(node: TreeNode): Promise<void> {
+    const address = await this.host.ballOf(node);
+    if (this.node !== node) return;
+    this.ball.hidden = address === null;
+    if (address !== null) this.ball.src = address;
   }
 
   private draw(): void {
@@ -53,9 +70,12 @@ export class PropertySheet {
     }
     const heading = document.createElement('h2');
     heading.textContent = node.name;
-    const rows: HTMLElement[] = [heading];
+    this.ball.hidden = true;
+    const head = document.createElement('header');
+    head.append(heading, this.ball);
+    const rows: HTMLElement[] = [head];
     const given = new Map(node.attributes.map((attribute) => [attribute.name, attribute]));
-    for (const description of this.objects.get(node.name)?.attributes ?? []) {
+    for (const description of this.descriptionsOf(node)) {
       const attribute = given.get(description.name);
       const row = document.createElement('div');
       row.className = 'property';
@@ -82,6 +102,12 @@ export class PropertySheet {
     this.element.replaceChildren(...rows);
   }
 
+  /** Lists what an object of the language may have, and of others what they have. */
+  private descriptionsOf(node: TreeNode): AttributeDescription[] {
+    return this.objects.get(node.name)?.attributes ?? node.attributes.map(({name}) =>
+      ({name, type: '', required: false, default: '', about: ''}));
+  }
+
   /** Finds the attribute as the newest tree has it: its place moves with the text. */
   private current(name: string): Attribute | undefined {
     return this.node?.attributes.find((attribute) => attribute.name === name);
@@ -101,14 +127,14 @@ export class PropertySheet {
     }
   }
 
-  private editors(attribute: Attribute, label: HTMLLabelElement): HTMLElement[] {
+  private editors(attribute: Attribute, label: HTMLLabelElement): Element[] {
     const numbers = attribute.numbers ?? [];
     switch (attribute.literal) {
       case 'number': {
         const field = this.numberField(attribute.name, numbers[0]!, (value) =>
           this.write(attribute.name, numberText(value)));
         this.makeDraggable(label, field);
-        return [field];
+        return [field, ...this.slider(attribute.name, field)];
       }
       case 'boolean': {
         const box = this.input('checkbox', attribute.name);
@@ -118,6 +144,8 @@ export class PropertySheet {
         return [box];
       }
       case 'string': {
+        const texts = choices[`${this.node!.name}.${attribute.name}`];
+        if (texts?.includes(attribute.text ?? '')) return this.list(attribute, texts);
         const field = this.input('text', attribute.name);
         field.value = attribute.text ?? '';
         field.addEventListener('input', () =>
@@ -136,6 +164,41 @@ export class PropertySheet {
         return [value];
       }
     }
+  }
+
+  /** Makes a list of texts, and shows the lens if they are its shapes. */
+  private list(attribute: Attribute, texts: readonly string[]): Element[] {
+    const list = document.createElement('select');
+    list.setAttribute('aria-label', attribute.name);
+    list.append(...texts.map((text) => new Option(text)));
+    list.value = attribute.text!;
+    const isLens = attribute.name === 'apertureshape';
+    const spots = document.createElement('span');
+    const show = () => isLens && spots.replaceChildren(apertureSpots(list.value));
+    list.addEventListener('focus', () => this.host.begin());
+    list.addEventListener('change', () => {
+      this.write(attribute.name, stringText(list.value));
+      show();
+    });
+    show();
+    return isLens ? [list, spots] : [list];
+  }
+
+  /** Makes a slider beside the field of a number that has a usual range. */
+  private slider(name: string, field: HTMLInputElement): HTMLInputElement[] {
+    const range = ranges[`${this.node!.name}.${name}`];
+    if (!range) return [];
+    const slider = this.input('range', `${name} as a slider`);
+    slider.min = String(range.low);
+    slider.max = String(range.high);
+    slider.step = String(range.step);
+    slider.value = field.value;
+    slider.addEventListener('input', () => {
+      field.value = slider.value;
+      field.dispatchEvent(new Event('input'));
+    });
+    field.addEventListener('input', () => { slider.value = field.value; });
+    return [slider];
   }
 
   private vectorFields(attribute: Attribute, numbers: number[]): HTMLElement[] {

@@ -85,6 +85,44 @@ export interface Scene {
   warnings: string[];
   camera: Camera;
   isOverridden: boolean;
+  readsTime: boolean;
+}
+
+export interface Region {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
+export interface SectionPlane {
+  axis: number;
+  offset: number;
+  isFlipped: boolean;
+}
+
+/** What the view shows of the scene, without touching the script. */
+export interface ViewOptions {
+  channel: string;
+  hidden: Span[];
+  section: SectionPlane | null;
+  region: Region | null;
+  t: number;
+}
+
+/** A box around an entity. Sides at infinity are null. */
+export interface Box {
+  lower: (number | null)[];
+  upper: (number | null)[];
+}
+
+export interface Machine {
+  type: 'machine';
+  cores: number;
+  load?: number;
+  memory?: number;
+  freeMemory?: number;
+  studioMemory?: number;
 }
 
 export interface State {
@@ -99,7 +137,7 @@ export interface State {
 export type Message =
   | {type: 'hello'; version: string; folder: string; script: string; scripts: string[];
      objects: ObjectDescription[]}
-  | {type: 'opened'; script: string; text: string}
+  | {type: 'opened'; script: string; text: string; typed?: string; readOnly?: boolean}
   | {type: 'analysis'; revision: number; tokens: number[]; tree: TreeNode[]}
   | {type: 'diagnostics'; revision: number; diagnostics: Diagnostic[]}
   | {type: 'answer'; id: number; revision?: number; result: unknown}
@@ -109,8 +147,15 @@ export type Message =
   | {type: 'saved'; script: string; scripts: string[]}
   | {type: 'conflict'; script: string; message: string}
   | {type: 'error'; message: string; id?: number; about?: string}
+  | Machine
   | Scene
   | State;
+
+/** Source code, and in what it may differ from what it was written of. */
+export interface Code {
+  text: string;
+  warnings: string[];
+}
 
 /** A rectangle of a picture, with the whole that it belongs to. */
 export interface Frame {

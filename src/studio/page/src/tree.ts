@@ -1,6 +1,6 @@
 // The tree of the script. What is selected here is selected in the editor.
 
-import type {TreeNode} from './protocol';
+import type {Span, TreeNode} from './protocol';
 
 const signs: Record<string, string> = {
   settings: '⚙', scene: '▣', import: '⇣', assignment: '=', macro: 'ƒ', object: '●',
@@ -8,6 +8,17 @@ const signs: Record<string, string> = {
 
 const combinations: Record<string, string> = {
   '+': 'union', '-': 'difference', '^': 'intersection'};
+
+/** Entities come from statements in these. */
+const hasStatements = new Set(['scene', 'loop', 'choice', 'macro']);
+const givesEntities = new Set(['object', 'combination', 'placed', 'call', 'name', 'list', 'loop',
+                               'choice']);
+
+/** What may be hidden, and what is. */
+export interface Eyes {
+  isHidden(span: Span): boolean;
+  toggle(span: Span): void;
+}
 
 export function titleOf(node: TreeNode): string {
   if (node.kind === 'combination') return combinations[node.name] ?? 'combination';
@@ -22,7 +33,7 @@ export class Tree {
   private readonly closed = new Set<string>();
   private selected = -1;
 
-  constructor(private readonly choose: (index: number) => void) {
+  constructor(private readonly choose: (index: number) => void, private readonly eyes: Eyes) {
     this.element.className = 'tree';
     this.element.setAttribute('role', 'tree');
     this.element.setAttribute('aria-label', 'Scene');
@@ -33,6 +44,11 @@ export class Tree {
   set(nodes: TreeNode[]): void {
     this.nodes = nodes;
     this.draw();
+  }
+
+  /** Lists the pieces of the script that can be hidden. */
+  statements(): Span[] {
+    return this.nodes.filter((_, index) => this.canBeHidden(index)).map(({span}) => span);
   }
 
   select(index: number): void {
@@ -49,7 +65,7 @@ export class Tree {
     return parts.join('/');
   }
 
-  private draw(): void {
+  draw(): void {
     this.rows = [];
     const depths: number[] = [];
     const hidden: boolean[] = [];
@@ -81,6 +97,7 @@ export class Tree {
       sign.setAttribute('aria-hidden', 'true');
       sign.textContent = signs[node.kind] ?? '';
       row.append(arrow, sign, titleOf(node));
+      if (this.canBeHidden(index)) row.append(this.eyeOf(node));
       row.hidden = isHidden;
       row.addEventListener('click', () => this.choose(index));
       this.rows.push(row);
@@ -88,6 +105,30 @@ export class Tree {
     });
     this.element.replaceChildren(content);
     this.select(Math.min(this.selected, this.rows.length - 1));
+  }
+
+  /** Says whether a node is a statement that puts entities into the scene, or does so in a macro. */
+  private canBeHidden(index: number): boolean {
+    const node = this.nodes[index]!;
+    const parent = this.nodes[node.parent];
+    if (!parent || !hasStatements.has(parent.kind) || !givesEntities.has(node.kind)) return false;
+    for (let i = node.parent; i >= 0; i = this.nodes[i]!.parent)
+      if (['scene', 'macro'].includes(this.nodes[i]!.kind)) return true;
+    return false;
+  }
+
+  private eyeOf(node: TreeNode): HTMLElement {
+    const eye = document.createElement('button');
+    const isHidden = this.eyes.isHidden(node.span);
+    eye.className = isHidden ? 'eye shut' : 'eye';
+    eye.tabIndex = -1;
+    eye.title = isHidden ? 'Show it again (H)' : 'Hide it in the view (H). The script stays as it is';
+    eye.setAttribute('aria-label', `${isHidden ? 'Show' : 'Hide'} ${titleOf(node)}`);
+    eye.addEventListener('click', (event) => {
+      event.stopPropagation();
+      this.eyes.toggle(node.span);
+    });
+    return eye;
   }
 
   private toggle(index: number): void {
@@ -103,6 +144,8 @@ export class Tree {
       let next = this.selected + step;
       while (this.rows[next]?.hidden) next += step;
       if (this.rows[next]) this.choose(next);
+    } else if (node && event.key === 'h' && this.canBeHidden(this.selected)) {
+      this.eyes.toggle(node.span);
     } else if (node && (event.key === 'ArrowLeft' || event.key === 'ArrowRight')) {
       const isClosed = this.closed.has(this.path(this.selected));
       if (isClosed === (event.key === 'ArrowRight')) this.toggle(this.selected);

@@ -3,81 +3,10 @@ import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {after, before, test} from 'node:test';
-import {command, folderWith, openPage, startBrowser, startServer, whole} from './studio.mjs';
-
-const scene = `Settings {
-    width -> 320 height -> 240 supersampling -> 2
-    camera -> Camera { position -> vec3(0, 0, -4) pointing -> vec3(0, 0, 0) }
-}
-ball = Sphere { center -> vec3(-1, 0, 0) radius -> 0.7 }
-red = Material { color -> rgb(0.8, 0.1, 0.1) }
-Scene {
-    ball
-    Box { cornerA -> vec3(0.5, -0.5, -0.5) cornerB -> vec3(1.5, 0.5, 0.5) material -> red }
-}
-`;
-
-let browser;
-before(async () => { browser = await startBrowser(); });
-after(() => browser.close());
-
-/** Runs a test with a server on a folder with the scene and a page that shows it. */
-function withPage(name, body) {
-  test(name, async () => {
-    const {folder, remove} = folderWith({'a.crt': scene});
-    const server = await startServer(folder, 'a.crt');
-    const page = await openPage(browser, server.url);
-    try {
-      await whole(page);
-      await body({page, folder, server});
-      assert.deepEqual(page.problems, []);
-    } finally {
-      await page.context().close();
-      assert.equal(await server.end(), 0);
-      remove();
-    }
-  });
-}
-
-const text = (page) => page.evaluate(() => studio.editor.text);
-const shown = (page) => page.evaluate(() => studio.view.shown);
-const shownBytes = (page) => page.evaluate(() => {
-  const {canvas} = studio.view;
-  return [...canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data];
-});
-
-/** Replaces a piece of the script as if it were typed. */
-async function type(page, piece, replacement) {
-  await page.evaluate(([from, length]) => {
-    studio.editor.view.dispatch({selection: {anchor: from, head: from + length}});
-    studio.editor.view.focus();
-  }, [(await text(page)).indexOf(piece), piece.length]);
-  await page.keyboard.insertText(replacement);
-}
-
-/** Clicks the picture at a share of its sides. */
-async function clickPicture(page, x, y, options = {}) {
-  const box = await page.locator('.live canvas').boundingBox();
-  await page.mouse.click(box.x + x * box.width, box.y + y * box.height, options);
-}
-
-async function dragPicture(page, dx, dy, key) {
-  const box = await page.locator('.live canvas').boundingBox();
-  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-  await page.mouse.move(x, y);
-  if (key) await page.keyboard.down(key);
-  await page.mouse.down();
-  for (let i = 1; i <= 10; ++i) await page.mouse.move(x + dx * i / 10, y + dy * i / 10);
-  await page.mouse.up();
-  if (key) await page.keyboard.up(key);
-}
-
-const selectedText = (page) => page.evaluate(() => {
-  const {from, to} = studio.editor.view.state.selection.main;
-  return studio.editor.view.state.sliceDoc(from, to);
-});
-const cameraOf = (page) => page.evaluate(() => studio.camera ?? studio.scene.camera);
+import {test} from 'node:test';
+import {browser, cameraOf, clickPicture, dragPicture, scene, selectedText, shown, shownBytes,
+        withPage} from './page.mjs';
+import {command, folderWith, openPage, startServer, text, type, whole} from './studio.mjs';
 
 withPage('the last picture has the bytes of crt render', async ({page, folder}) => {
   const [download] = await Promise.all([
@@ -225,7 +154,7 @@ withPage('what another program writes is shown, and what was typed is not lost b
          async ({page, folder}) => {
   writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.4'));
   await page.waitForFunction(() => studio.editor.text.includes('radius -> 0.4'));
-  assert.equal(await page.evaluate(() => studio.isChanged), false);
+  assert.equal(await page.evaluate(() => studio.file.isChanged), false);
   await type(page, '0.4', '0.45');
   writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.9'));
   await page.getByRole('button', {name: 'Keep what is here'}).click();
@@ -260,7 +189,7 @@ withPage('the picture has the most room, and all panels are seen at 1280 by 720'
 
 withPage('texts of both themes have the contrast of WCAG AA', async ({page}) => {
   for (const theme of ['dark', 'light']) {
-    await page.evaluate((name) => studio.applyTheme(name), theme);
+    await page.evaluate((name) => studio.layout.applyTheme(name), theme);
     const weak = await page.evaluate(() => {
       const style = getComputedStyle(document.documentElement);
       const luminance = (name) => {
@@ -292,7 +221,7 @@ withPage('the layout and the theme are kept', async ({page, server}) => {
   await page.getByRole('button', {name: 'Theme'}).click();
   await page.locator('.dv-tab', {hasText: 'Statistics'}).click();
   await page.locator('.statistics').waitFor();
-  await page.evaluate(() => studio.dock.getPanel('queue').api.close());
+  await page.evaluate(() => studio.layout.dock.getPanel('queue').api.close());
   await page.goto('about:blank');
   await page.goto(server.url);
   await whole(page);
@@ -306,7 +235,7 @@ test('a server that is killed in a render leaves the text, and its next run goes
   const {folder, remove} = folderWith({'a.crt': scene});
   const first = await startServer(folder, 'a.crt');
   const port = new URL(first.url).port;
-  const page = await openPage(browser, first.url);
+  const page = await openPage(browser(), first.url);
   await whole(page);
   await type(page, 'supersampling -> 2', 'supersampling -> 64');
   await page.waitForFunction(() => studio.view.lastKind !== 'final');
@@ -324,7 +253,7 @@ test('a server that is killed in a render leaves the text, and its next run goes
 });
 
 withPage('two tabs have scripts of their own', async ({page, server}) => {
-  const other = await openPage(browser, server.url);
+  const other = await openPage(browser(), server.url);
   await whole(other);
   await type(other, '0.7', '0.2');
   await whole(other);
@@ -335,7 +264,7 @@ withPage('two tabs have scripts of their own', async ({page, server}) => {
 
 withPage('a page of another origin gets nothing', async ({page, server, folder}) => {
   const {port, hash} = new URL(server.url);
-  const hostile = await browser.newPage();
+  const hostile = await browser().newPage();
   const {folder: other, remove} = folderWith({'b.crt': scene});
   const elsewhere = await startServer(other, 'b.crt');
   await hostile.goto(elsewhere.url.replace(/#.*/, 'licenses.txt'));
@@ -356,7 +285,7 @@ withPage('a script of 10000 lines can be typed in', async ({page, folder}) => {
   const long = scene.replace('Scene {\n', 'Scene {\n' +
     '    Sphere { center -> vec3(0, 0, 9) radius -> 0.1 }\n'.repeat(10000));
   writeFileSync(join(folder, 'long.crt'), long);
-  await page.evaluate(() => studio.open('long.crt'));
+  await page.evaluate(() => studio.file.open('long.crt'));
   await page.waitForFunction(() => studio.editor.view.state.doc.lines > 10000);
   await whole(page);
   await type(page, '0.7', '0.6');

@@ -74,3 +74,25 @@ export const whole = (page) => page.waitForFunction(() => {
   return studio.view.lastKind === 'final' && studio.queue.title.textContent === 'Done' &&
     studio.timing.firstPicture > 0;
 }, null, {timeout: 60000});
+
+export const text = (page) => page.evaluate(() => studio.editor.text);
+
+/** Replaces a piece of the script as if it were typed. */
+export async function type(page, piece, replacement) {
+  await page.evaluate(([from, length]) => {
+    studio.editor.view.dispatch({selection: {anchor: from, head: from + length}});
+    studio.editor.view.focus();
+  }, [(await text(page)).indexOf(piece), piece.length]);
+  await page.keyboard.insertText(replacement);
+}
+
+/** Does something that starts a render, and waits for its end. */
+export async function rendered(page, action) {
+  await page.evaluate(() => {
+    studio.view.lastKind = '';
+    studio.queue.title.textContent = '';
+  });
+  await action();
+  await page.waitForFunction(() =>
+    studio.view.lastKind !== '' && studio.queue.title.textContent === 'Done');
+}

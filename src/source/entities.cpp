@@ -1,0 +1,206 @@
+#include "source/entities.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "source/shapes.hpp"
+#include "source/values.hpp"
+
+namespace crt::source {
+
+namespace {
+
+/// Longer texts get a name.
+constexpr std::size_t most_inline = 80;
+
+/// Lists what a node is directly made of.
+std::vector<const EntityNode*> children(const EntityNode& node) {
+  std::vector<const EntityNode*> result;
+  if (const auto* operation = std::get_if<CsgOperation>(&node.content)) {
+    for (const EntityPointer& part : operation->parts) result.push_back(part.get());
+  } else if (const auto* wrapper = std::get_if<EntityWrapper>(&node.content)) {
+    result.push_back(wrapper->child.get());
+  }
+  return result;
+}
+
+/// Lists the maps of a chain in the order in which they are applied.
+std::vector<const core::TransformChain*> maps_of(const core::TransformChain& chain) {
+  std::vector<const core::TransformChain*> maps;
+  std::vector<const core::TransformChain*> open{&chain};
+  while (!open.empty()) {
+    const core::TransformChain* map = open.back();
+    open.pop_back();
+    if (map->is_product()) {
+      maps.push_back(map);
+    } else {
+      open.push_back(map->second);
+      open.push_back(map->first);
+    }
+  }
+  return maps;
+}
+
+bool is_diagonal(const Transform& map) {
+  return map == Transform{.row_x = {map.row_x.x, 0, 0},
+                          .row_y = {0, map.row_y.y, 0},
+                          .row_z = {0, 0, map.row_z.z}};
+}
+
+constexpr const char* cpp_functions[] = {"csg_union", "csg_intersection", "csg_difference"};
+constexpr const char* python_functions[] = {"crt.union", "crt.intersection", "crt.difference"};
+constexpr const char* c_functions[] = {"crt_union_create", "crt_intersection_create",
+                                       "crt_difference_create"};
+constexpr const char* signs[] = {"+", "^", "-"};
+
+}  // namespace
+
+void EntityWriter::count(const Entity& entity) {
+  std::vector<const EntityNode*> open{&entity.node()};
+  while (!open.empty()) {
+    const EntityNode* node = open.back();
+    open.pop_back();
+    if (++uses_[node] > 1) continue;
+    for (const EntityNode* child : children(*node)) open.push_back(child);
+  }
+}
+
+std::string EntityWriter::write(const Entity& entity) {
+  struct Step {
+    const EntityNode* node;
+    bool parts_are_written;
+  };
+  std::vector<Step> open{{&entity.node(), false}};
+  while (!open.empty()) {
+    const Step step = open.back();
+    open.pop_back();
+    if (written_.contains(step.node)) continue;
+    if (!step.parts_are_written) {
+      open.push_back({step.node, true});
+      const std::vector<const EntityNode*> parts = children(*step.node);
+      for (std::size_t i = parts.size(); i > 0; --i) open.push_back({parts[i - 1], false});
+      continue;
+    }
+    std::string text = value(*step.node);
+    const bool is_named = uses_[step.node] > 1 || text.size() > most_inline;
+    if (!program_.syntax().is_c() && is_named && step.node != &entity.node())
+      text = program_.define("entity", "Entity", text);
+    written_[step.node] = std::move(text);
+  }
+  std::string& text = written_[&entity.node()];
+  if (!program_.syntax().is_c() && uses_[&entity.node()] > 1 && text.size() > most_inline)
+    text = program_.define("entity", "Entity", text);
+  return text;
+}
+
+std::string EntityWriter::value(const EntityNode& node) {
+  if (const auto* primitive = std::get_if<Primitive>(&node.content)) {
+    const std::string shape = shape_value(program_, *primitive);
+    const auto& material = material_of(*primitive);
+    return program_.syntax().is_c() && material ? with_material(shape, *material) : shape;
+  }
+  if (const auto* csg = std::get_if<CsgOperation>(&node.content)) return operation(*csg);
+  return wrapper(std::get<EntityWrapper>(node.content));
+}
+
+std::string EntityWriter::operation(const CsgOperation& operation) {
+  const Syntax& syntax = program_.syntax();
+  if (operation.parts.empty()) {
+    if (syntax.is_c()) return program_.create("entity", "crt_empty_create", {});
+    return syntax.is_cpp() ? "empty_entity()" : "crt.Empty()";
+  }
+  std::vector<std::string> parts;
+  for (const EntityPointer& part : operation.parts) parts.push_back(written_.at(part.get()));
+  const auto kind = static_cast<std::size_t>(operation.op);
+  const bool is_difference = operation.op == CsgOperator::difference;
+  if (parts.size() == 2 && !syntax.is_c()) {
+    return fmt::format("({} {} {})", parts[0], signs[kind], parts[1]);
+  }
+  const std::string first = parts.front();
+  if (is_difference) parts.erase(parts.begin());
+  if (syntax.is_c()) {
+    const std::string array = program_.local_array("parts", "crt_entity*", parts);
+    std::vector<std::string> arguments{array, std::to_string(parts.size())};
+    if (is_difference) arguments.insert(arguments.begin(), first);
+    return program_.create("entity", c_functions[kind], std::move(arguments));
+  }
+  const std::string list =
+      syntax.is_cpp() ? joined("std::vector<Entity>{", parts, "}") : syntax.list(parts);
+  return fmt::format("{}({}{})", syntax.is_cpp() ? cpp_functions[kind] : python_functions[kind],
+                     is_difference ? first + ", " : "", list);
+}
+
+std::string EntityWriter::wrapper(const EntityWrapper& wrapper) {
+  std::string text = written_.at(wrapper.child.get());
+  if (wrapper.to_parent) text = placed(std::move(text), *wrapper.to_parent);
+  if (wrapper.material) text = with_material(text, *wrapper.material);
+  if (!wrapper.id) return text;
+  const std::string id = std::to_string(*wrapper.id);
+  if (program_.syntax().is_c())
+    return program_.create("entity", "crt_entity_with_id", {text, id + "U"});
+  return called(text, fmt::format("with_id({})", id));
+}
+
+std::string EntityWriter::placed(std::string entity, const core::TransformChain& chain) {
+  for (const core::TransformChain* map : maps_of(chain)) {
+    if (!map->is_plain() && !std::exchange(has_warned_, true)) {
+      program_.warn(
+          "transforms that are nested, and together are more than doubles can say, are "
+          "rounded: single pixels may differ");
+    }
+    entity = placed_by(entity, map->product.rounded());
+  }
+  return entity;
+}
+
+std::string EntityWriter::placed_by(const std::string& entity, const Transform& map) {
+  const Syntax& syntax = program_.syntax();
+  const auto& [x, y, z, t] = map;
+  const std::array<std::array<double, 4>, 3> rows{
+      {{x.x, x.y, x.z, t.x}, {y.x, y.y, y.z, t.y}, {z.x, z.y, z.z, t.z}}};
+  if (syntax.is_c()) {
+    std::vector<std::string> numbers;
+    for (const auto& row : rows) {
+      for (const double number : row) numbers.push_back(Syntax::number(number));
+    }
+    return program_.create("entity", "crt_entity_with_transform",
+                           {entity, joined("(const double[]){", numbers, "}")});
+  }
+  const bool moves = map == Transform{.translation = t};
+  if (moves || is_diagonal(map)) {
+    const std::string vector = syntax.vector(moves ? t : Vec3(x.x, y.y, z.z));
+    if (syntax.is_python())
+      return called(entity, fmt::format("{}({})", moves ? "moved" : "scaled", vector));
+    return called(entity, fmt::format("transformed({}({}))", moves ? "translate" : "scale",
+                                      moves ? vector : "Vec3" + vector));
+  }
+  if (syntax.is_python()) {
+    std::vector<std::string> lists;
+    lists.reserve(rows.size());
+    for (const auto& row : rows) lists.push_back(syntax.list(number_items(row)));
+    return called(entity, "transformed(" + syntax.list(lists) + ")");
+  }
+  return called(
+      entity, fmt::format("transformed({{.row_x = {}, .row_y = {}, .row_z = {}, "
+                          ".translation = {}}})",
+                          syntax.vector(x), syntax.vector(y), syntax.vector(z), syntax.vector(t)));
+}
+
+std::string EntityWriter::with_material(const std::string& entity, const SharedMaterial& material) {
+  const std::string name = material_name(program_, material);
+  if (program_.syntax().is_c())
+    return program_.create("entity", "crt_entity_with_material", {entity, "&" + name});
+  return called(entity, fmt::format("with_material({})", name));
+}
+
+/// Calls a member of an entity. In C++ a primitive has none.
+std::string EntityWriter::called(const std::string& entity, const std::string& call) const {
+  const bool is_primitive = program_.syntax().is_cpp() && entity.ends_with('}');
+  return is_primitive ? fmt::format("Entity({}).{}", entity, call)
+                      : fmt::format("{}.{}", entity, call);
+}
+
+}  // namespace crt::source

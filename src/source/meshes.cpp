@@ -1,0 +1,219 @@
+// Meshes are written as the triangles and attributes that make them again.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/mesh/facet_attributes.hpp"
+#include "core/geometry/mesh/triangles.hpp"
+#include "crt/error.hpp"
+#include "crt/mesh.hpp"
+#include "source/shapes.hpp"
+#include "source/values.hpp"
+
+namespace crt::source {
+
+namespace {
+
+using core::FacetAttributes;
+
+/// MeshParts are what a mesh can be made of again.
+struct MeshParts {
+  std::vector<Vec3> positions;
+  std::vector<TriangleIndices> triangles;
+  MeshAttributes attributes;
+};
+
+/// Returns a vector whose direction rounds to the floats that are given. They are those of a unit
+/// vector, each rounded. Of all ways back to unit length, the one that uses the same share of every
+/// rounding surely does not use more of them than there is.
+Vec3 direction_that_rounds_to(const std::array<float, 4>& rounded) {
+  const Vec3 v(rounded[0], rounded[1], rounded[2]);
+  if (v == Vec3(0)) return v;
+  const double excess = (v.x * v.x + v.y * v.y + v.z * v.z - 1) / 2;
+  Vec3 half_step(0);
+  double whole = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float size = std::abs(rounded[static_cast<std::size_t>(axis)]);
+    const float next = std::nextafter(size, std::numeric_limits<float>::infinity());
+    half_step[axis] = (double{next} - double{size}) / 2;
+    whole += double{size} * half_step[axis];
+  }
+  Vec3 result = v;
+  for (int axis = 0; axis < 3; ++axis)
+    result[axis] -= std::copysign(half_step[axis], v[axis]) * excess / whole;
+  return result;
+}
+
+MeshParts parts_of(const MeshTriangles& mesh) {
+  MeshParts parts;
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    const TriangleIndices& corners = mesh.corners(i);
+    const auto [a, b, c, material] = mesh.triangle(i);
+    const Vec3 places[] = {a, b, c};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (corners[k] >= parts.positions.size()) parts.positions.resize(corners[k] + 1, a);
+      parts.positions[corners[k]] = places[k];
+    }
+    parts.triangles.push_back(corners);
+  }
+  const FacetAttributes* attributes = mesh.attributes();
+  if (attributes == nullptr) return parts;
+  MeshAttributes& given = parts.attributes;
+  if (attributes->has_normals()) {
+    for (const auto& normal : attributes->normals().values)
+      given.normals.push_back(direction_that_rounds_to(normal));
+    given.normal_indices = attributes->normals().of_facets;
+  }
+  if (attributes->has_uv()) {
+    for (const auto& [u, v] : attributes->uv().values) given.uv.push_back({u, v});
+    given.uv_indices = attributes->uv().of_facets;
+  }
+  if (attributes->has_materials()) {
+    given.materials.assign(attributes->materials().begin(), attributes->materials().end());
+    for (std::uint32_t i = 0; i < mesh.size(); ++i)
+      given.material_of_triangle.push_back(attributes->material(i) - 1);
+  }
+  return parts;
+}
+
+/// Refuses a mesh that would be another one if it were made again.
+void check_parts(const MeshParts& parts, const MeshTriangles& mesh) {
+  const auto again = mesh_triangles(parts.positions, parts.triangles, parts.attributes);
+  if (again->size() == mesh.size() && again->is_closed() == mesh.is_closed() &&
+      again->is_oriented() == mesh.is_oriented())
+    return;
+  throw Error(ErrorCode::unsupported,
+              "a mesh that is closed by triangles without area cannot be written as source code: "
+              "load it from its file");
+}
+
+/// Writes rows of numbers, each as a list of its own but in C.
+template <class Rows>
+std::vector<std::string> row_items(const Syntax& syntax, const Rows& rows) {
+  std::vector<std::string> items;
+  for (const auto& row : rows) {
+    std::vector<std::string> numbers;
+    if constexpr (requires { row.x; }) {
+      numbers = number_items(std::array<double, 3>{row.x, row.y, row.z});
+    } else {
+      for (const auto number : row) numbers.push_back(fmt::format("{}", number));
+    }
+    if (syntax.is_c()) {
+      items.insert(items.end(), numbers.begin(), numbers.end());
+    } else {
+      items.push_back(syntax.list(numbers));
+    }
+  }
+  return items;
+}
+
+/// A MeshWriter makes arrays of the parts, and names them as fields.
+class MeshWriter {
+ public:
+  MeshWriter(Program& program, const MeshParts& parts)
+      : program_(program), parts_(parts), fields_(program.syntax()) {}
+
+  std::string write() {
+    const MeshAttributes& attributes = parts_.attributes;
+    const std::string positions = rows("positions", "Vec3", "double", parts_.positions);
+    const std::string triangles =
+        rows("triangles", "TriangleIndices", "uint32_t", parts_.triangles);
+    add_rows("normals", "Vec3", "double", attributes.normals);
+    add_rows("normal_indices", "TriangleIndices", "uint32_t", attributes.normal_indices);
+    add_rows("uv", "std::array<double, 2>", "double", attributes.uv);
+    add_rows("uv_indices", "TriangleIndices", "uint32_t", attributes.uv_indices);
+    add_materials();
+    const Syntax& syntax = program_.syntax();
+    if (syntax.is_cpp()) {
+      return program_.define("mesh", "auto",
+                             fields_.all().empty()
+                                 ? fmt::format("mesh_triangles({}, {})", positions, triangles)
+                                 : fmt::format("mesh_triangles({}, {},\n      {})", positions,
+                                               triangles, fields_.constructed("MeshAttributes")));
+    }
+    Fields all(syntax);
+    all.add_text("", "positions", positions);
+    all.add_text("", syntax.is_c() ? "vertex_count" : "", std::to_string(parts_.positions.size()));
+    all.add_text("", "indices", triangles);
+    all.add_text("", syntax.is_c() ? "triangle_count" : "",
+                 std::to_string(parts_.triangles.size()));
+    for (const StructField& field : fields_.all())
+      all.add_text("", field.name.c_str(), std::get<std::string>(field.value));
+    const std::string mesh = program_.structure("mesh", "Mesh", all);
+    return syntax.is_c() ? program_.create("entity", "crt_mesh_create_with", {"&" + mesh})
+                         : program_.define("mesh", "", mesh);
+  }
+
+ private:
+  template <class Rows>
+  std::string rows(const char* name, const char* cpp_type, const char* c_type,
+                   const Rows& content) {
+    const Syntax& syntax = program_.syntax();
+    return program_.array(name, syntax.is_cpp() ? cpp_type : c_type, row_items(syntax, content));
+  }
+
+  template <class Rows>
+  void add_rows(const char* name, const char* cpp_type, const char* c_type, const Rows& content) {
+    if (content.empty()) return;
+    add_array(name, rows(name, cpp_type, c_type, content));
+    const std::string field = name;
+    if (!program_.syntax().is_c() || field.ends_with("_indices")) return;
+    fields_.add_text("", field == "uv" ? "uv_count" : "normal_count",
+                     std::to_string(content.size()));
+  }
+
+  void add_array(const char* name, const std::string& array) {
+    fields_.add_text(name, name,
+                     program_.syntax().is_cpp()
+                         ? fmt::format("{{std::begin({0}), std::end({0})}}", array)
+                         : array);
+  }
+
+  void add_materials() {
+    const MeshAttributes& attributes = parts_.attributes;
+    if (attributes.materials.empty()) return;
+    const Syntax& syntax = program_.syntax();
+    std::vector<std::string> names;
+    for (const SharedMaterial& material : attributes.materials)
+      names.push_back((syntax.is_c() ? "&" : "") + material_name(program_, material));
+    if (syntax.is_c()) {
+      const std::string pointers = program_.local_array("materials", "const crt_material*", names);
+      fields_.add_text("", "materials", pointers);
+      fields_.add_text("", "material_count", std::to_string(names.size()));
+    } else {
+      fields_.add_text("materials", "materials", syntax.list(names));
+    }
+    std::vector<std::string> numbers;
+    for (const std::uint32_t number : attributes.material_of_triangle)
+      numbers.push_back(std::to_string(number));
+    add_array("material_of_triangle",
+              program_.array("material_of_triangle", syntax.is_cpp() ? "std::uint32_t" : "uint32_t",
+                             numbers));
+  }
+
+  Program& program_;
+  const MeshParts& parts_;
+  Fields fields_;
+};
+
+}  // namespace
+
+std::string mesh_value(Program& program, const Mesh& mesh) {
+  std::string name = program.known(mesh.triangles.get());
+  if (name.empty()) {
+    program.require_space(std::size_t{3} * mesh.triangles->size());
+    const MeshParts parts = parts_of(*mesh.triangles);
+    check_parts(parts, *mesh.triangles);
+    name = program.remember(mesh.triangles.get(), MeshWriter(program, parts).write());
+  }
+  if (program.syntax().is_c()) return name;
+  const std::string material = mesh.material ? material_name(program, *mesh.material) : "";
+  if (program.syntax().is_python())
+    return material.empty() ? name : fmt::format("{}.with_material({})", name, material);
+  return material.empty() ? fmt::format("Mesh{{.triangles = {}}}", name)
+                          : fmt::format("Mesh{{.triangles = {}, .material = {}}}", name, material);
+}
+
+}  // namespace crt::source

@@ -1,0 +1,287 @@
+#include "source/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry/height_field/grid.hpp"
+#include "core/geometry/profile/profile.hpp"
+#include "crt/error.hpp"
+#include "source/values.hpp"
+
+namespace crt::source {
+
+namespace {
+
+ShapeCode code_of(const Sphere& it) {
+  return {"Sphere", "sphere", {{"center", "center", it.center}, {"radius", "radius", it.radius}}};
+}
+ShapeCode code_of(const Box& it) {
+  return {
+      "Box", "box", {{"corner_a", "corner_a", it.corner_a}, {"corner_b", "corner_b", it.corner_b}}};
+}
+ShapeCode code_of(const Plane& it) {
+  return {
+      "Plane", "plane", {{"normal", "normal", it.normal}, {"position", "position", it.position}}};
+}
+ShapeCode code_of(const HalfPlane& it) {
+  return {"HalfPlane",
+          "half_plane",
+          {{"normal", "normal", it.normal},
+           {"position", "position", it.position},
+           {"direction", "direction", it.direction}}};
+}
+ShapeCode code_of(const Cylinder& it) {
+  return {"Cylinder",
+          "cylinder",
+          {{"from", "start", it.from}, {"to", "end", it.to}, {"radius", "radius", it.radius}}};
+}
+ShapeCode code_of(const Cone& it) {
+  return {"Cone",
+          "cone",
+          {{"from", "start", it.from},
+           {"to", "end", it.to},
+           {"radius", "radius", it.radius},
+           {"radius2", "radius2", it.radius2}}};
+}
+ShapeCode code_of(const Torus& it) {
+  return {"Torus",
+          "torus",
+          {{"center", "center", it.center},
+           {"axis", "axis", it.axis},
+           {"radius", "radius", it.radius},
+           {"thickness", "thickness", it.thickness}}};
+}
+ShapeCode code_of(const Disc& it) {
+  return {"Disc",
+          "disc",
+          {{"center", "center", it.center},
+           {"normal", "normal", it.normal},
+           {"radius", "radius", it.radius}}};
+}
+ShapeCode code_of(const Triangle& it) {
+  return {"Triangle", "triangle", {{"a", "a", it.a}, {"b", "b", it.b}, {"c", "c", it.c}}};
+}
+ShapeCode code_of(const Capsule& it) {
+  return {"Capsule",
+          "capsule",
+          {{"from", "start", it.from}, {"to", "end", it.to}, {"radius", "radius", it.radius}}};
+}
+ShapeCode code_of(const Mesh&) {
+  return {"Mesh", "mesh", {}};
+}
+ShapeCode code_of(const Extrusion& it) {
+  const double low = std::min(it.from, it.to);
+  const double high = std::max(it.from, it.to);
+  return {"Extrusion",
+          "extrusion",
+          {{"from", "", low},
+           {"to", "", high},
+           {"", "start", Vec3(0, 0, low)},
+           {"", "end", Vec3(0, 0, high)}}};
+}
+ShapeCode code_of(const Revolution& it) {
+  return {"Revolution",
+          "revolution",
+          {{"", "start", Vec3(0, 0, 0)},
+           {"", "end", Vec3(0, 1, 0)},
+           {"angle", "angle", it.angle, true}}};
+}
+ShapeCode code_of(const HeightField& it) {
+  return {"HeightField",
+          "height_field",
+          {{"corner_a", "corner_a", it.corner_a}, {"corner_b", "corner_b", it.corner_b}}};
+}
+ShapeCode code_of(const Quadric& it) {
+  return {"Quadric",
+          "quadric",
+          {{"squares", "squares", it.squares},
+           {"products", "products", it.products},
+           {"linear", "linear", it.linear},
+           {"constant", "constant", it.constant}}};
+}
+ShapeCode code_of(const Implicit& it) {
+  return {"Implicit", "implicit", {{"lower", "lower", it.lower}, {"upper", "upper", it.upper}}};
+}
+ShapeCode code_of(const Custom&) {
+  return {"Custom", "custom", {}};
+}
+
+/// A SharedPart is what a primitive has beside numbers. C may have several arguments for it.
+struct SharedPart {
+  const char* name = "";  ///< in C++ and Python
+  std::vector<std::string> values{};
+};
+
+bool closes_itself(const Contour& contour) {
+  return contour.front().x == contour.back().x && contour.front().y == contour.back().y;
+}
+
+std::string contour_list(const Syntax& syntax, const Contour& contour) {
+  std::vector<std::string> corners;
+  for (const auto& [x, y, bulge] : contour) {
+    const std::string numbers =
+        bulge == 0 ? fmt::format("{}, {}", x, y) : fmt::format("{}, {}, {}", x, y, bulge);
+    corners.push_back(syntax.is_python() ? "(" + numbers + ")" : "{" + numbers + "}");
+  }
+  return syntax.list(corners);
+}
+
+std::string profile_name(Program& program, const std::shared_ptr<const Profile>& profile) {
+  if (std::string known = program.known(profile.get()); !known.empty()) return known;
+  const std::vector<Contour>& contours = profile->contours();
+  std::string name;
+  if (program.syntax().is_c()) {
+    name = program.create("profile", "crt_profile_create", {});
+    const auto add = [&](const char* function, const ProfilePoint& to) {
+      const std::string bulge = to.bulge == 0 ? "" : ", " + Syntax::number(to.bulge);
+      program.add_line(fmt::format("check(crt_profile_{}({}, {}, {}{}));", function, name, to.x,
+                                   to.y, function[0] == 'a' ? bulge : ""));
+    };
+    for (const Contour& contour : contours) {
+      add("move_to", contour.front());
+      for (std::size_t i = 1; i < contour.size(); ++i)
+        add(contour[i].bulge == 0 ? "line_to" : "arc_to", contour[i]);
+      if (contour.front().bulge != 0 && !closes_itself(contour)) add("arc_to", contour.front());
+    }
+  } else {
+    std::vector<std::string> lists;
+    lists.reserve(contours.size());
+    for (const Contour& contour : contours)
+      lists.push_back(contour_list(program.syntax(), contour));
+    const std::string list = program.syntax().list(lists);
+    name = program.define("profile", "auto",
+                          program.syntax().is_cpp()
+                              ? fmt::format("make_profile(std::vector<Contour>{})", list)
+                              : list);
+  }
+  return program.remember(profile.get(), name);
+}
+
+std::string heights_name(Program& program, const std::shared_ptr<const HeightGrid>& grid) {
+  if (std::string known = program.known(grid.get()); !known.empty()) return known;
+  const Syntax& syntax = program.syntax();
+  program.require_space(std::size_t{grid->columns()} * grid->rows());
+  std::vector<std::string> rows;
+  std::vector<std::string> all;
+  for (std::uint32_t row = 0; row < grid->rows(); ++row) {
+    const auto items =
+        number_items(std::span(grid->heights_from(0, row), std::size_t{grid->columns()}));
+    if (syntax.is_python()) {
+      rows.push_back(syntax.list(items));
+    } else {
+      all.insert(all.end(), items.begin(), items.end());
+    }
+  }
+  std::string name = syntax.is_python() ? program.define("heights", "", syntax.list(rows))
+                                        : program.array("heights", "double", all);
+  if (syntax.is_cpp()) {
+    name =
+        program.define("height_grid", "auto",
+                       fmt::format("make_height_grid({{std::begin({0}), std::end({0})}}, {1}, {2})",
+                                   name, grid->columns(), grid->rows()));
+  }
+  return program.remember(grid.get(), name);
+}
+
+template <class Shape>
+SharedPart shared_part(Program&, const Shape&) {
+  return {};
+}
+SharedPart shared_part(Program& program, const Extrusion& it) {
+  return {"profile", {profile_name(program, it.profile)}};
+}
+SharedPart shared_part(Program& program, const Revolution& it) {
+  return {"profile", {profile_name(program, it.profile)}};
+}
+SharedPart shared_part(Program& program, const HeightField& it) {
+  SharedPart part{"heights", {heights_name(program, it.heights)}};
+  if (program.syntax().is_c()) {
+    part.values.push_back(std::to_string(it.heights->columns()));
+    part.values.push_back(std::to_string(it.heights->rows()));
+  }
+  return part;
+}
+SharedPart shared_part(Program& program, const Implicit& it) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 20;
+  const std::string content = field_text(it.field, most_bytes);
+  const std::string text = program.syntax().text(content);
+  if (program.syntax().is_cpp()) return {"field", {fmt::format("parse_field({})", text)}};
+  SharedPart part{"field", {text}};
+  if (program.syntax().is_c()) part.values.push_back(std::to_string(content.size()));
+  return part;
+}
+SharedPart shared_part(Program&, const Custom& it) {
+  throw Error(ErrorCode::unsupported,
+              fmt::format("{} is computed by a program, which cannot be written as source code",
+                          it.shape->name()));
+}
+
+/// Returns degrees that are as many radians, to the last bit where there are such.
+double degrees_of(double radians) {
+  constexpr double a_degree = std::numbers::pi / 180;
+  constexpr int most_steps = 4;
+  const double nearest = radians / a_degree;
+  double above = nearest;
+  double below = nearest;
+  for (int step = 0; step < most_steps; ++step) {
+    if (above * a_degree == radians) return above;
+    if (below * a_degree == radians) return below;
+    above = std::nextafter(above, 2 * nearest);
+    below = std::nextafter(below, 0);
+  }
+  return nearest;
+}
+
+std::string value_text(const Syntax& syntax, const Argument& argument) {
+  if (argument.is_angle && syntax.is_python())
+    return Syntax::number(degrees_of(std::get<double>(argument.value)));
+  if (const auto* number = std::get_if<double>(&argument.value)) return Syntax::number(*number);
+  return syntax.vector(std::get<Vec3>(argument.value));
+}
+
+std::string c_value(Program& program, const ShapeCode& code, SharedPart part) {
+  std::vector<std::string> arguments = std::move(part.values);
+  for (const Argument& argument : code.arguments) {
+    if (*argument.python != '\0') arguments.push_back(value_text(program.syntax(), argument));
+  }
+  return program.create("entity", fmt::format("crt_{}_create", code.c), std::move(arguments));
+}
+
+}  // namespace
+
+ShapeCode shape_code(const Primitive& primitive) {
+  return std::visit([](const auto& shape) { return code_of(shape); }, primitive);
+}
+
+const std::optional<SharedMaterial>& material_of(const Primitive& primitive) {
+  return std::visit(
+      [](const auto& shape) -> const std::optional<SharedMaterial>& { return shape.material; },
+      primitive);
+}
+
+std::string shape_value(Program& program, const Primitive& primitive) {
+  if (const auto* mesh = std::get_if<Mesh>(&primitive)) return mesh_value(program, *mesh);
+  const ShapeCode code = shape_code(primitive);
+  const SharedPart part =
+      std::visit([&](const auto& shape) { return shared_part(program, shape); }, primitive);
+  const Syntax& syntax = program.syntax();
+  if (syntax.is_c()) return c_value(program, code, part);
+  std::vector<std::string> items;
+  const auto add = [&](const char* name, const std::string& value) {
+    if (*name == '\0') return;
+    items.push_back(syntax.is_cpp() ? fmt::format(".{} = {}", name, value)
+                                    : fmt::format("{}={}", name, value));
+  };
+  if (!part.values.empty()) add(part.name, part.values.front());
+  for (const Argument& argument : code.arguments)
+    add(syntax.is_cpp() ? argument.cpp : argument.python, value_text(syntax, argument));
+  if (const auto& material = material_of(primitive))
+    add("material", material_name(program, *material));
+  return syntax.is_cpp() ? joined(fmt::format("{}{{", code.name), items, "}")
+                         : joined(fmt::format("crt.{}(", code.name), items, ")");
+}
+
+}  // namespace crt::source

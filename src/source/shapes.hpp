@@ -1,0 +1,47 @@
+// Primitives become source code.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "crt/primitives.hpp"
+#include "source/program.hpp"
+
+namespace crt::source {
+
+/// An Argument is a field of a primitive, as C++ and as Python name it. C has those that Python
+/// has, in their order. An empty name says that there is none.
+struct Argument {
+  const char* cpp;
+  const char* python;
+  std::variant<double, Vec3> value;
+  bool is_angle = false;  ///< which Python has in degrees
+};
+
+/// A ShapeCode says how a primitive is made of numbers.
+struct ShapeCode {
+  const char* name;  ///< in C++ and Python
+  const char* c;     ///< "sphere", of crt_sphere_create
+  std::vector<Argument> arguments;
+};
+
+/// Returns how a primitive is made, but for what it shares with others: its profile, triangles,
+/// heights or field.
+ShapeCode shape_code(const Primitive& primitive);
+
+/// Returns what makes a primitive, without its material. Throws Error (unsupported) for a Custom
+/// shape.
+std::string shape_value(Program& program, const Primitive& primitive);
+
+/// Returns the material of a primitive, or null.
+const std::optional<SharedMaterial>& material_of(const Primitive& primitive);
+
+/// Returns a field as an expression of the CRT language. Throws Error (limit) if it has more than
+/// so many bytes.
+std::string field_text(const Field& field, std::size_t most_bytes);
+
+/// Returns what makes a mesh, without its material.
+std::string mesh_value(Program& program, const Mesh& mesh);
+
+}  // namespace crt::source

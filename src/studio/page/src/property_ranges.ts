@@ -1,0 +1,52 @@
+// Within which numbers sliders go, and which texts there are to choose from. A slider goes through
+// what is usual: the field beside it takes more.
+
+export interface Range {
+  low: number;
+  high: number;
+  step: number;
+}
+
+const shares: Range = {low: 0, high: 1, step: 0.01};
+const turn: Range = {low: 1, high: 360, step: 1};
+
+export const ranges: Readonly<Record<string, Range>> = {
+  'Material.reflectivity': shares,
+  'Material.transparency': shares,
+  'Material.refractiveindex': {low: 1, high: 3, step: 0.01},
+  'Material.diffuse': shares,
+  'Material.specular': {low: 0, high: 2, step: 0.01},
+  'Material.shininess': {low: 0, high: 200, step: 1},
+  'Camera.fov': {low: 1, high: 179, step: 1},
+  'Camera.roll': {low: -180, high: 180, step: 1},
+  'Camera.aperture': {low: 0, high: 500, step: 1},
+  'PointLight.ambient': shares,
+  'ParallelLight.ambient': shares,
+  'SpotLight.angle': turn,
+  'SpotLight.penumbra': {low: 0, high: 45, step: 0.5},
+  'SpotLight.ambient': shares,
+  'CylinderLight.ambient': shares,
+  'Revolution.angle': turn,
+  'Noise.octaves': {low: 1, high: 16, step: 1},
+  'Marble.octaves': {low: 1, high: 16, step: 1},
+  'Wood.octaves': {low: 1, high: 16, step: 1},
+  'Settings.gamma': {low: 0.5, high: 3, step: 0.05},
+  'Settings.supersampling': {low: 1, high: 8, step: 1},
+  'Settings.dofsamples': {low: 1, high: 64, step: 1},
+  'Settings.recursiondepth': {low: 0, high: 16, step: 1},
+  'Settings.filterwidth': {low: 1, high: 16, step: 0.5},
+};
+
+const projections = ['pinhole', 'spherical', 'cylindrical', 'orthographic'];
+
+export const choices: Readonly<Record<string, readonly string[]>> = {
+  'Camera.apertureshape': ['circle', 'uniform', 'gaussian', 'triangle', 'square', 'pentagon',
+                           'hexagon', 'octagon', 'line'],
+  'Settings.projection': projections,
+  'Settings.filter': ['box', 'blackmanharris'],
+  'Settings.falloffmodel': ['path', 'light'],
+  'Settings.ambientmodel': ['light', 'surface'],
+  'Settings.precision': ['standard', 'exact'],
+  'Background.projection': ['spherical', 'cylindrical', 'equalarea'],
+  'ImageMap.mapping': ['uv', 'planar', 'cylindrical', 'cubic'],
+};

@@ -1,0 +1,85 @@
+// The bar below the picture: what of the scene the view shows, and how.
+
+import type {Comparison} from './comparison';
+import {button, choice, input, labelled} from './dom';
+import type {Box, Pick, Vector} from './protocol';
+import {SectionControls} from './section_controls';
+import {TimeControls} from './time_controls';
+import type {ViewState} from './view_state';
+
+const channels = [
+  ['color', 'Picture'], ['depth', 'Depth'], ['normal', 'Normals'], ['id', 'Entities'],
+  ['part', 'Parts'], ['albedo', 'Colours of materials'], ['samples', 'Samples'],
+  ['error', 'Error']] as const;
+
+const short = (value: number): string => String(Number(value.toPrecision(4)));
+
+export interface ControlsHost {
+  askBoxes(): Promise<Box[]>;
+  /** Returns where the camera is. */
+  viewer(): Vector;
+  /** Counts the pictures that were shown. */
+  countShown(): number;
+  boundsChanged(): void;
+}
+
+export class ViewControls {
+  readonly element = document.createElement('div');
+  private readonly section: SectionControls;
+  private readonly time: TimeControls;
+  private readonly channel: HTMLSelectElement;
+  private readonly whole: HTMLButtonElement;
+  private readonly all: HTMLButtonElement;
+  private readonly bounds: HTMLInputElement;
+  private readonly place = document.createElement('output');
+
+  constructor(private readonly state: ViewState, comparison: Comparison, host: ControlsHost) {
+    this.element.className = 'controls';
+    this.element.setAttribute('role', 'toolbar');
+    this.element.setAttribute('aria-label', 'What the view shows');
+    this.channel = choice('Channel', channels, (channel) => state.set({channel}));
+    this.section = new SectionControls((section) => state.set({section}), () => host.askBoxes(),
+                                       () => host.viewer());
+    this.time = new TimeControls((t) => state.set({t}), () => host.countShown());
+    this.bounds = input('checkbox', 'Bounds', '', () => host.boundsChanged());
+    this.whole = button('Whole picture', 'Refine all of the picture again (Escape)', () =>
+      state.set({region: null}));
+    this.all = button('Show all', 'Show what was hidden in the scene tree', () =>
+      state.set({hidden: []}));
+    const bounds = labelled('Bounds', this.bounds);
+    bounds.title = 'Draw the boxes around entities';
+    bounds.prepend(this.bounds);
+    this.element.append(this.channel, bounds, this.section.element, comparison.controls, this.whole,
+                        this.all, this.time.element, this.place);
+    this.place.title = 'Where the picture was clicked last';
+    this.update();
+  }
+
+  get showsBounds(): boolean {
+    return this.bounds.checked;
+  }
+
+  /** Shows where the picture was clicked. */
+  showPick(pick: Pick | null): void {
+    this.place.textContent = pick === null ? '' :
+      `${short(pick.distance)} away, at ${pick.position.map(short).join(', ')}`;
+  }
+
+  setReadsTime(readsTime: boolean): void {
+    this.time.setUsed(readsTime);
+  }
+
+  /** Shows the controls that undo what is in effect. */
+  update(): void {
+    this.whole.hidden = this.state.options.region === null;
+    this.all.hidden = this.state.options.hidden.length === 0;
+  }
+
+  /** Shows all of another script. */
+  reset(): void {
+    this.state.reset();
+    this.section.reset();
+    this.time.reset();
+    this.update();
+  }
+}

@@ -1,0 +1,45 @@
+// What the view shows of the scene. What is hidden moves with the text.
+
+import type {ChangeDesc} from '@codemirror/state';
+
+import type {Span, ViewOptions} from './protocol';
+
+export class ViewState {
+  options: ViewOptions = {channel: 'color', hidden: [], section: null, region: null, t: 0};
+
+  constructor(private readonly changed: () => void) {}
+
+  set(options: Partial<ViewOptions>): void {
+    this.options = {...this.options, ...options};
+    this.changed();
+  }
+
+  isHidden(span: Span): boolean {
+    return this.options.hidden.some(([from, to]) => from === span[0] && to === span[1]);
+  }
+
+  toggle(span: Span): void {
+    const others = this.options.hidden.filter(([from, to]) => from !== span[0] || to !== span[1]);
+    this.set({hidden: others.length < this.options.hidden.length ? others : [...others, span]});
+  }
+
+  /** Follows an edit. The text that goes to the server brings what is hidden with it. */
+  follow(changes: ChangeDesc): void {
+    const hidden = this.options.hidden
+      .map(([from, to]): Span => [changes.mapPos(from, 1), changes.mapPos(to, -1)])
+      .filter(([from, to]) => from < to);
+    this.options = {...this.options, hidden};
+  }
+
+  /** Lets what is hidden be whole statements again, of which an edit may have moved the end. */
+  fit(statements: Span[]): void {
+    const hidden = this.options.hidden.map(([from, to]): Span =>
+      statements.find((span) => span[0] === from) ?? [from, to]);
+    if (hidden.some((span, i) => span[1] !== this.options.hidden[i]![1])) this.set({hidden});
+  }
+
+  /** Shows all of another script. */
+  reset(): void {
+    this.options = {...this.options, hidden: [], section: null, region: null, t: 0};
+  }
+}

@@ -1,0 +1,49 @@
+// A ViewClient is what clients have in common that show pictures: it renders, moves the camera and
+// answers what a picture shows. Others add messages of their own.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "studio/picture_frame.hpp"
+#include "studio/renderer.hpp"
+#include "studio/web_server.hpp"
+
+namespace crt::studio {
+
+class ViewClient : public Client {
+ public:
+  ViewClient(std::shared_ptr<Connection> connection, int threads);
+
+  void receive(std::string_view text) override;
+
+ protected:
+  /// Takes a message of one type. It may throw what the JSON library throws, and Error.
+  using Handler = std::function<void(const nlohmann::json&)>;
+
+  /// Says what takes messages of a type.
+  void on(const char* type, Handler handler) { handlers_[type] = std::move(handler); }
+  void send(const nlohmann::json& message) const;
+  Renderer& renderer() { return renderer_; }
+
+ private:
+  RenderEvents events();
+  void send_picture(const EncodedPicture& picture);
+  void complain(const std::string& why, const nlohmann::json& message) const;
+  void set_camera(const nlohmann::json& message);
+  void render(const nlohmann::json& message);
+  void pick(const nlohmann::json& message);
+  void picture(const nlohmann::json& message);
+  void code(const nlohmann::json& message);
+
+  const std::shared_ptr<Connection> connection_;
+  std::map<std::string, Handler, std::less<>> handlers_;
+  std::optional<EncodedPicture> last_picture_;
+  Renderer renderer_;
+};
+
+}  // namespace crt::studio

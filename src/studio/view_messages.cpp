@@ -1,0 +1,106 @@
+#include "studio/view_messages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <crt/error.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "studio/material_ball.hpp"
+
+namespace crt::studio {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::array<const char*, 8> channels = {"color", "depth",  "normal",  "id",
+                                                 "part",  "albedo", "samples", "error"};
+/// Boxes are computed for so many entities, of so many primitives together.
+constexpr std::size_t most_boxes = 2000;
+constexpr std::uint64_t most_primitives = 100'000;
+/// Regions end here. No picture is larger.
+constexpr int largest_side = 65536;
+
+Channel channel_of(const std::string& name) {
+  const auto found = std::find(channels.begin(), channels.end(), name);
+  if (found == channels.end())
+    throw Error(ErrorCode::invalid_argument, "there is no channel '" + name + "'");
+  return static_cast<Channel>(found - channels.begin());
+}
+
+double finite_number(const json& value) {
+  const double number = value.get<double>();
+  if (!std::isfinite(number))
+    throw Error(ErrorCode::invalid_argument, "the options of the view must be finite numbers");
+  return number;
+}
+
+SectionPlane section_of(const json& value) {
+  const SectionPlane section{value.at("axis").get<int>(), finite_number(value.at("offset")),
+                             value.at("isFlipped").get<bool>()};
+  if (section.axis < 0 || section.axis > 2)
+    throw Error(ErrorCode::invalid_argument, "an axis is 0, 1 or 2");
+  return section;
+}
+
+Region region_of(const json& value) {
+  const auto number = [&](const char* name) {
+    return static_cast<int>(std::clamp(finite_number(value.at(name)), 0.0, double{largest_side}));
+  };
+  return {number("x"), number("y"), number("width"), number("height")};
+}
+
+json corner_json(const Vec3& corner) {
+  json result = json::array();
+  for (const double x : {corner.x, corner.y, corner.z})
+    result.push_back(std::isfinite(x) ? json(x) : json(nullptr));
+  return result;
+}
+
+}  // namespace
+
+ViewOptions view_options_of(const json& value, const Utf16Places& places) {
+  ViewOptions options;
+  options.channel = channel_of(value.at("channel").get<std::string>());
+  for (const json& span : value.at("hidden")) {
+    options.hidden.push_back({places.byte_of(span.at(0).get<std::uint32_t>()),
+                              places.byte_of(span.at(1).get<std::uint32_t>())});
+  }
+  if (!value.at("section").is_null()) options.section = section_of(value.at("section"));
+  if (!value.at("region").is_null()) options.region = region_of(value.at("region"));
+  options.t = finite_number(value.at("t"));
+  return options;
+}
+
+json boxes_json(const View& view) {
+  json boxes = json::array();
+  std::uint64_t primitives = 0;
+  for (const Entity& entity : view.scene.entities) {
+    primitives += entity.primitive_count();
+    if (boxes.size() == most_boxes || primitives > most_primitives) break;
+    const BoundingBox box = bounding_box(entity);
+    if (box.lower.x > box.upper.x) continue;
+    boxes.push_back({{"lower", corner_json(box.lower)}, {"upper", corner_json(box.upper)}});
+  }
+  return {{"revision", view.revision.number}, {"boxes", std::move(boxes)}};
+}
+
+json preview_json(const Analysis& analysis, std::uint32_t unit) {
+  const auto file = material_ball(*analysis.revision.text, analysis.revision.name,
+                                  analysis.service.tree(), analysis.places.byte_of(unit));
+  return file ? json(*file) : json(nullptr);
+}
+
+json machine_message(const MachineState& state) {
+  json message = {{"type", "machine"}, {"cores", state.cores}};
+  if (state.load) message["load"] = *state.load;
+  if (state.memory) message["memory"] = *state.memory;
+  if (state.free_memory) message["freeMemory"] = *state.free_memory;
+  if (state.studio_memory) message["studioMemory"] = *state.studio_memory;
+  return message;
+}
+
+}  // namespace crt::studio

@@ -1,0 +1,85 @@
+#include "studio/view_options.hpp"
+
+#include <algorithm>
+#include <crt/material.hpp>
+#include <utility>
+
+namespace crt::studio {
+
+namespace {
+
+/// Cuts have a colour of their own, as in drawings of sections.
+constexpr Color cut_color = {0.85, 0.32, 0.2};
+
+bool are_equal(const std::optional<Region>& a, const std::optional<Region>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
+}
+
+bool encloses(const TextSpan& outer, const TextSpan& inner) {
+  return inner.begin >= outer.begin && inner.end <= outer.end;
+}
+
+bool is_hidden(const EntityPlace& place, const std::vector<TextSpan>& hidden) {
+  return std::any_of(hidden.begin(), hidden.end(), [&](const TextSpan& span) {
+    return encloses(span, place.statement) || encloses(span, place.origin);
+  });
+}
+
+/// Returns the half-space that a section takes away.
+Plane cutter_of(const SectionPlane& section) {
+  static const SharedMaterial material(Material{.color = cut_color});
+  Plane plane{.normal = {0, 0, 0}, .position = {0, 0, 0}, .material = material};
+  plane.normal[section.axis] = section.is_flipped ? 1 : -1;
+  plane.position[section.axis] = section.offset;
+  return plane;
+}
+
+}  // namespace
+
+bool differ_in_region_alone(const ViewOptions& a, const ViewOptions& b) {
+  return a.channel == b.channel && a.hidden == b.hidden && a.section == b.section && a.t == b.t &&
+         !are_equal(a.region, b.region);
+}
+
+std::optional<Region> clipped(const std::optional<Region>& region, const Settings& settings) {
+  if (!region) return std::nullopt;
+  const int left = std::clamp(region->x, 0, settings.width);
+  const int top = std::clamp(region->y, 0, settings.height);
+  const int width = std::min(region->width, settings.width - left);
+  const int height = std::min(region->height, settings.height - top);
+  if (width < 1 || height < 1) return std::nullopt;
+  return Region{left, top, width, height};
+}
+
+std::vector<BoundingBox> boxes_of(const Scene& scene) {
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(scene.entities.size());
+  for (const Entity& entity : scene.entities) boxes.push_back(bounding_box(entity));
+  return boxes;
+}
+
+Scene visible_scene(const Scene& scene, const std::vector<EntityPlace>& places,
+                    const ViewOptions& options,
+                    const std::function<const std::vector<BoundingBox>&()>& boxes) {
+  Scene result = scene;
+  if (options.hidden.empty() && !options.section) return result;
+  result.entities.clear();
+  const auto kept_as_it_is = [&](std::size_t index) {
+    if (!options.section || !scene.entities[index].is_solid()) return true;
+    const auto& [axis, offset, is_flipped] = *options.section;
+    const BoundingBox& box = boxes()[index];
+    return is_flipped ? box.lower[axis] >= offset : box.upper[axis] <= offset;
+  };
+  const std::optional<Entity> cutter =
+      options.section ? std::optional<Entity>(cutter_of(*options.section)) : std::nullopt;
+  for (std::size_t i = 0; i < scene.entities.size(); ++i) {
+    if (i < places.size() && is_hidden(places[i], options.hidden)) continue;
+    const Entity& entity = scene.entities[i];
+    result.entities.push_back(
+        kept_as_it_is(i) ? entity : (entity - *cutter).with_id(static_cast<std::uint32_t>(i)));
+  }
+  return result;
+}
+
+}  // namespace crt::studio

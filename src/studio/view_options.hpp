@@ -1,0 +1,49 @@
+// ViewOptions say what the live view shows of a scene. None of them touches the script.
+#pragma once
+
+#include <crt/bounding_box.hpp>
+#include <crt/render.hpp>
+#include <crt/scene.hpp>
+#include <crt/script.hpp>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace crt::studio {
+
+/// Says which of a pixel's numbers is shown.
+enum class Channel { color, depth, normal, id, part, albedo, samples, error };
+
+/// A SectionPlane takes away what lies on one side of a plane across an axis.
+struct SectionPlane {
+  int axis = 0;  ///< 0 is x, 1 is y, 2 is z
+  double offset = 0;
+  bool is_flipped = false;  ///< takes away what is below the offset, not what is above
+
+  bool operator==(const SectionPlane&) const = default;
+};
+
+struct ViewOptions {
+  Channel channel = Channel::color;
+  std::vector<TextSpan> hidden{};  ///< statements of the script whose entities are not shown
+  std::optional<SectionPlane> section{};
+  std::optional<Region> region{};  ///< the part of the picture that is refined
+  double t = 0;                    ///< the frame
+};
+
+/// Says whether two options differ by nothing but their regions.
+bool differ_in_region_alone(const ViewOptions& a, const ViewOptions& b);
+
+/// Returns what of a region lies in a picture, or nothing.
+std::optional<Region> clipped(const std::optional<Region>& region, const Settings& settings);
+
+/// Returns the boxes of the scene's entities, for visible_scene().
+std::vector<BoundingBox> boxes_of(const Scene& scene);
+
+/// Returns the scene without what is hidden, and cut by the section. Entities keep their ids. Mere
+/// surfaces are not cut. `boxes` is called if there is a section.
+Scene visible_scene(const Scene& scene, const std::vector<EntityPlace>& places,
+                    const ViewOptions& options,
+                    const std::function<const std::vector<BoundingBox>&()>& boxes);
+
+}  // namespace crt::studio

@@ -1,0 +1,65 @@
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "cli/command.hpp"
+#include "cli/scenes.hpp"
+
+using namespace crt::test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& piece) {
+  return text.find(piece) != std::string::npos;
+}
+
+struct Fixture {
+  TemporaryFolder folder;
+  Fixture() { folder.write("ball.crt", ball_script); }
+};
+
+}  // namespace
+
+TEST_CASE_FIXTURE(Fixture, "the ending of the output says the language, and --as says it before") {
+  CHECK(run_crt(folder, {"export", "ball.crt", "-o", "ball.cpp"}).exit_code == 0);
+  CHECK(run_crt(folder, {"export", "ball.crt", "-o", "ball.py"}).exit_code == 0);
+  CHECK(run_crt(folder, {"export", "ball.crt", "-o", "ball.c"}).exit_code == 0);
+  CHECK(run_crt(folder, {"export", "ball.crt", "-o", "c.cpp", "--as", "c"}).exit_code == 0);
+  CHECK(contains(folder.read("ball.cpp"), "Scene make_scene() {"));
+  CHECK(contains(folder.read("ball.py"), "def make_scene():"));
+  CHECK(contains(folder.read("ball.c"), "static crt_scene* make_scene(void) {"));
+  CHECK(folder.read("c.cpp") == folder.read("ball.c"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "without an output the program goes to standard output alone") {
+  const Outcome run = run_crt(folder, {"export", "ball.crt", "--as", "python"});
+  CHECK_MESSAGE(run.exit_code == 0, run.err);
+  CHECK(run.out.starts_with("import sys\n"));
+  CHECK(contains(run.err, "n is 3"));  // what the script prints
+}
+
+TEST_CASE_FIXTURE(Fixture, "variables and settings are those of the command line") {
+  const Outcome run =
+      run_crt(folder, {"export", "ball.crt", "--set", "n=7", "--width", "123", "-o", "ball.py"});
+  CHECK(contains(run.out, "n is 7"));
+  CHECK(contains(folder.read("ball.py"), "width=123"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "one entity is a function, and one that is not there is an error") {
+  const Outcome run = run_crt(folder, {"export", "ball.crt", "--entity", "0", "-o", "ball.py"});
+  CHECK_MESSAGE(run.exit_code == 0, run.err);
+  CHECK(contains(folder.read("ball.py"), "def make_entity():"));
+  const Outcome beyond = run_crt(folder, {"export", "ball.crt", "--entity", "99"});
+  CHECK(beyond.exit_code == 1);
+  CHECK(contains(beyond.err, "there is no entity 99"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "what cannot be is refused, and nothing is written") {
+  CHECK(run_crt(folder, {"export", "ball.crt", "--as", "cobol"}).exit_code == 2);
+  CHECK(run_crt(folder, {"export", "ball.crt", "--entity", "-1"}).exit_code == 2);
+  CHECK(run_crt(folder, {"export", "none.crt", "-o", "none.cpp"}).exit_code == 3);
+  folder.write("wrong.crt", "Scene { Ball { } }\n");
+  CHECK(run_crt(folder, {"export", "wrong.crt", "-o", "wrong.cpp"}).exit_code == 1);
+  CHECK(!folder.has("none.cpp"));
+  CHECK(!folder.has("wrong.cpp"));
+}

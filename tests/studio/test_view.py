@@ -1,0 +1,228 @@
+"""The view shows a scene otherwise than its picture has it, and the picture stays what it is."""
+
+import base64
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import unittest
+
+from client import Client, Server
+
+COMMAND = os.environ["CRT_COMMAND"]
+WIDTH, HEIGHT = 96, 64
+SCENE = """Settings {
+    width -> 96 height -> 64 supersampling -> 2
+    camera -> Camera { position -> vec3(0, 0, -4) pointing -> vec3(0, 0, 0) }
+}
+red = Material { color -> rgb(0.8, 0.1, 0.1) }
+ball = Macro (x) { Sphere { center -> vec3(x, 0, 0) radius -> 0.7 material -> red } }
+Scene {
+    ball(-1)
+    Box { cornerA -> vec3(0.5, -0.5, -0.5) cornerB -> vec3(1.5, 0.5, 0.5) }
+}
+"""
+LEFT, RIGHT, CORNER = (28, 32), (66, 32), (2, 2)
+ALL = {"channel": "color", "hidden": [], "section": None, "region": None, "t": 0}
+
+
+class View(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        (self.folder / "a.crt").write_text(SCENE)
+        self.server = Server(self.folder, "a.crt")
+        self.addCleanup(self.server.end)
+        self.client = Client(self.server)
+        self.addCleanup(self.client.close)
+        self.client.open("a.crt")
+        self.client.set_text(SCENE)
+        self.pixels = bytearray(4 * WIDTH * HEIGHT)
+        self.picture, _ = self.whole()
+
+    def whole(self):
+        """Returns the pixels that a page has at the end of a render, and the kinds of pictures."""
+        kinds = []
+        while True:
+            message = self.client.receive()
+            if isinstance(message, dict):
+                if message["type"] == "finished":
+                    return bytes(self.pixels), kinds
+                continue
+            numbers = struct.unpack("<10I", message[:40])
+            kinds.append(numbers[1] & 0xFF)
+            if kinds[-1] > 0:
+                begin = 4 * WIDTH * numbers[8]
+                self.pixels[begin : begin + len(message) - 40] = message[40:]
+
+    def show(self, **options):
+        self.client.send(type="view", view={**ALL, **options})
+        return self.whole()[0]
+
+    def span(self, piece):
+        begin = SCENE.index(piece)
+        return [begin, begin + len(piece)]
+
+    @staticmethod
+    def at(pixels, place):
+        begin = 4 * (WIDTH * place[1] + place[0])
+        return tuple(pixels[begin : begin + 4])
+
+    def test_every_channel_is_shown_and_the_picture_comes_back(self):
+        seen = {self.picture}
+        for channel in ("depth", "normal", "id", "part", "albedo", "samples", "error"):
+            with self.subTest(channel):
+                pixels = self.show(channel=channel)
+                self.assertEqual(pixels[3::4], b"\xff" * (WIDTH * HEIGHT))
+                seen.add(pixels)
+        # Without passes, all samples and all errors are the same: both are a single colour. Parts
+        # that nothing names are the entities.
+        self.assertEqual(len(seen), 6)
+        self.assertEqual(self.show(), self.picture)
+
+    def test_numbers_are_shown_as_they_are_ordered(self):
+        depth = self.show(channel="depth")
+        self.assertGreater(self.at(depth, LEFT)[0], self.at(depth, (20, 32))[0])
+        normal = self.show(channel="normal")
+        self.assertEqual(self.at(normal, RIGHT)[:3], (128, 128, 0))
+        ids = self.show(channel="id")
+        self.assertEqual(len({self.at(ids, place) for place in (LEFT, RIGHT, CORNER)}), 3)
+        albedo = self.show(channel="albedo")
+        self.assertEqual(self.at(albedo, LEFT)[:3], (204, 26, 26))
+
+    def test_the_file_is_that_of_crt_render_whatever_channel_is_shown(self):
+        output = self.folder / "a.exr"
+        subprocess.run(
+            [COMMAND, "render", "-q", "--reproducible", "-o", output, self.folder / "a.crt"],
+            check=True,
+        )
+        for channel in ("depth", "samples"):
+            self.show(channel=channel)
+            self.assertEqual(self.client.picture("exr"), output.read_bytes())
+
+    def test_what_is_hidden_is_gone_from_the_view_alone(self):
+        background = self.at(self.picture, CORNER)
+        for piece, hidden, kept in (
+            ("ball(-1)", LEFT, RIGHT),
+            ("Sphere { center -> vec3(x, 0, 0) radius -> 0.7 material -> red }", LEFT, RIGHT),
+            (SCENE[SCENE.index("Box {") : SCENE.rindex("\n}")], RIGHT, LEFT),
+        ):
+            with self.subTest(piece):
+                pixels = self.show(hidden=[self.span(piece)])
+                self.assertEqual(self.at(pixels, hidden), background)
+                self.assertEqual(self.at(pixels, kept), self.at(self.picture, kept))
+                self.assertIsNone(self.client.pick(*hidden))
+                self.assertIsNotNone(self.client.pick(*kept))
+        pixels = self.show(hidden=[self.span(SCENE[SCENE.index("Scene {") :])])
+        self.assertEqual(len(set(pixels[i : i + 4] for i in range(0, len(pixels), 4))), 1)
+        self.assertEqual((self.folder / "a.crt").read_text(), SCENE)
+        self.assertEqual(self.show(), self.picture)
+
+    def test_a_text_brings_its_own_places_of_what_is_hidden(self):
+        text = "-- ä😀\n" + SCENE
+        begin = SCENE.index("ball(-1)") + len("-- ä😀\n".encode("utf-16-le")) // 2
+        self.client.revision += 1
+        self.client.send(
+            type="text",
+            revision=self.client.revision,
+            text=text,
+            view={**ALL, "hidden": [[begin, begin + 8]]},
+        )
+        pixels, _ = self.whole()
+        self.assertEqual(self.at(pixels, LEFT), self.at(self.picture, CORNER))
+        self.assertEqual(self.at(pixels, RIGHT), self.at(self.picture, RIGHT))
+
+    def test_a_section_shows_the_inside_and_leads_to_the_same_statement(self):
+        self.show(section={"axis": 2, "offset": 0.0, "isFlipped": True})
+        cut = self.client.pick(*LEFT)
+        self.assertAlmostEqual(cut["position"][2], 0)
+        self.assertEqual(SCENE[slice(*cut["statement"])], "ball(-1)")
+        self.assertAlmostEqual(cut["normal"][2], -1)
+        pixels = self.show(section={"axis": 0, "offset": 0.0, "isFlipped": False})
+        self.assertEqual(self.at(pixels, LEFT), self.at(self.picture, LEFT))
+        self.assertEqual(self.at(pixels, RIGHT), self.at(self.picture, CORNER))
+        self.assertEqual(self.show(), self.picture)
+
+    def test_only_the_region_is_refined(self):
+        self.client.send(
+            type="view", view={**ALL, "region": {"x": 10, "y": 8, "width": 40, "height": 300}}
+        )
+        pixels, kinds = self.whole()
+        self.assertEqual(set(kinds), {1})
+        for y in range(HEIGHT):
+            begin = 4 * WIDTH * y
+            row, picture = pixels[begin : begin + 4 * WIDTH], self.picture[begin:]
+            inside = slice(40, 200)
+            self.assertEqual(row[:40] + row[200:], bytes(4 * WIDTH - 160))
+            self.assertEqual(row[inside], picture[inside] if y >= 8 else bytes(160))
+        self.assertEqual(self.show(), self.picture)
+        outside = {"x": 500, "y": 8, "width": 4, "height": 4}
+        self.assertEqual(self.show(region=outside), self.picture)
+
+    def test_time_runs_the_script_again(self):
+        moving = SCENE.replace("ball(-1)", "ball(t / 10 - 1)")
+        self.client.set_text(moving)
+        scene = self.client.wait("scene")
+        self.assertTrue(scene["readsTime"])
+        start, _ = self.whole()
+        self.assertEqual(start, self.picture)
+        self.assertNotEqual(self.show(t=5), start)
+        self.assertAlmostEqual(self.client.pick(48, 32)["position"][0], 0, delta=0.1)
+        self.assertEqual(self.show(t=0), start)
+        self.client.set_text(SCENE)
+        self.assertFalse(self.client.wait("scene")["readsTime"])
+
+    def test_boxes_hold_the_entities_and_may_have_no_end(self):
+        self.client.set_text(
+            SCENE.replace(
+                "Scene {", "Scene { Plane { normal -> vec3(0, 1, 0) position -> vec3(0, -1, 0) }"
+            )
+        )
+        self.client.finish()
+        self.client.send(type="boxes", id=7)
+        boxes = self.client.wait("answer", lambda answer: answer["id"] == 7)["result"]["boxes"]
+        self.assertEqual(len(boxes), 3)
+        self.assertIn(None, boxes[0]["lower"])
+        for found, true in zip(boxes[1]["lower"], (-1.7, -0.7, -0.7)):
+            self.assertAlmostEqual(found, true)
+        self.assertEqual(boxes[2]["upper"], [1.5, 0.5, 0.5])
+
+    def test_a_material_has_a_ball_if_it_can_be_made_by_itself(self):
+        place = SCENE.index("Material")
+        ball = base64.b64decode(self.client.ask("preview", place))
+        self.assertEqual(ball[:8], b"\x89PNG\r\n\x1a\n")
+        self.client.set_text(SCENE.replace("0.8, 0.1, 0.1", "0.1, 0.8, 0.1"))
+        self.assertNotEqual(base64.b64decode(self.client.ask("preview", place)), ball)
+        self.assertIsNone(self.client.ask("preview", SCENE.index("Box")))
+        in_macro = SCENE.replace("-> red", "-> Material { reflectivity -> x }")
+        self.client.set_text(in_macro)
+        self.assertIsNone(self.client.ask("preview", in_macro.index("Material { reflec")))
+
+    def test_the_machine_is_described(self):
+        self.client.send(type="machine")
+        machine = self.client.wait("machine")
+        self.assertGreaterEqual(machine["cores"], 1)
+        self.assertLessEqual(machine["freeMemory"], machine["memory"])
+        self.assertGreater(machine["studioMemory"], 1 << 20)
+
+    def test_wrong_options_are_refused(self):
+        for wrong in (
+            {"channel": "taste"},
+            {"hidden": [[1]]},
+            {"hidden": 7},
+            {"section": {"axis": 3, "offset": 0, "isFlipped": False}},
+            {"section": {"axis": 0, "offset": "far", "isFlipped": False}},
+            {"region": {"x": 0}},
+            {"t": None},
+        ):
+            with self.subTest(wrong):
+                self.client.send(type="view", view={**ALL, **wrong})
+                self.assertEqual(self.client.wait("error")["about"], "view")
+        self.client.set_text(SCENE)
+        self.assertEqual(self.whole()[0], self.picture)
+
+
+if __name__ == "__main__":
+    unittest.main()
