@@ -7,6 +7,7 @@
 #include <crt/color.hpp>
 #include <crt/curves.hpp>
 #include <crt/custom.hpp>
+#include <crt/cutters.hpp>
 #include <crt/elementary.hpp>
 #include <crt/entity.hpp>
 #include <crt/error.hpp>

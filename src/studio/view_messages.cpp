@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <crt/cutters.hpp>
 #include <crt/error.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -60,6 +61,12 @@ json corner_json(const Vec3& corner) {
   return result;
 }
 
+void add_box(json& boxes, const Entity& entity) {
+  const BoundingBox box = bounding_box(entity);
+  if (box.lower.x > box.upper.x) return;
+  boxes.push_back({{"lower", corner_json(box.lower)}, {"upper", corner_json(box.upper)}});
+}
+
 }  // namespace
 
 ViewOptions view_options_of(const json& value, const Utf16Places& places) {
@@ -77,15 +84,18 @@ ViewOptions view_options_of(const json& value, const Utf16Places& places) {
 
 json boxes_json(const View& view) {
   json boxes = json::array();
+  json cut_boxes = json::array();
   std::uint64_t primitives = 0;
   for (const Entity& entity : view.scene.entities) {
     primitives += entity.primitive_count();
     if (boxes.size() == most_boxes || primitives > most_primitives) break;
-    const BoundingBox box = bounding_box(entity);
-    if (box.lower.x > box.upper.x) continue;
-    boxes.push_back({{"lower", corner_json(box.lower)}, {"upper", corner_json(box.upper)}});
+    add_box(boxes, entity);
+    for (const Entity& cutter : cutters(entity, most_boxes - cut_boxes.size()))
+      add_box(cut_boxes, cutter);
   }
-  return {{"revision", view.revision.number}, {"boxes", std::move(boxes)}};
+  return {{"revision", view.revision.number},
+          {"boxes", std::move(boxes)},
+          {"cutters", std::move(cut_boxes)}};
 }
 
 json preview_json(const Analysis& analysis, std::uint32_t unit) {

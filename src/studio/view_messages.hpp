@@ -16,7 +16,8 @@ namespace crt::studio {
 /// (invalid_argument).
 ViewOptions view_options_of(const nlohmann::json& value, const Utf16Places& places);
 
-/// Lists the boxes of what is shown, as far as they are found soon. Sides at infinity are null.
+/// Lists the boxes of what is shown and of what is cut from it, as far as they are found soon.
+/// Sides at infinity are null.
 nlohmann::json boxes_json(const View& view);
 
 /// Answers with a picture of a ball of the material at a place, as a PNG file in base64. It is null

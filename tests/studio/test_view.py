@@ -189,6 +189,17 @@ class View(unittest.TestCase):
             self.assertAlmostEqual(found, true)
         self.assertEqual(boxes[2]["upper"], [1.5, 0.5, 0.5])
 
+    def test_what_is_cut_away_has_boxes_where_it_is(self):
+        cutter = "Sphere { center -> vec3(1, 0, 0) radius -> 0.5 }"
+        cut = f"(ball(-1) - {cutter}) <translate vec3(0, 2, 0)>"
+        self.client.set_text(SCENE.replace("ball(-1)", cut))
+        self.client.finish()
+        self.client.send(type="boxes", id=8)
+        answer = self.client.wait("answer", lambda answer: answer["id"] == 8)["result"]
+        self.assertEqual(len(answer["cutters"]), 1)
+        for found, true in zip(answer["cutters"][0]["upper"], (1.5, 2.5, 0.5)):
+            self.assertAlmostEqual(found, true)
+
     def test_a_material_has_a_ball_if_it_can_be_made_by_itself(self):
         place = SCENE.index("Material")
         ball = base64.b64decode(self.client.ask("preview", place))

@@ -13,7 +13,7 @@ import {Layout} from './layout';
 import {LiveView} from './live_view';
 import {Console, Statistics} from './panels';
 import {PropertySheet} from './properties';
-import type {Box, Camera, Code, Message, Pick, Scene, TreeNode} from './protocol';
+import type {Boxes, Camera, Code, Message, Pick, Scene, TreeNode} from './protocol';
 import {Queue} from './queue';
 import {ScriptFile} from './script_file';
 import {Selection} from './selection';
@@ -49,7 +49,7 @@ class Studio {
     regionChosen: (region) => this.viewState.set({region}),
   });
   private readonly controls = new ViewControls(this.viewState, this.view.comparison, {
-    askBoxes: () => this.askBoxes(),
+    askBoxes: async () => (await this.askBoxes()).boxes,
     viewer: () => (this.camera ?? this.scene?.camera)?.position ?? [0, 0, 0],
     countShown: () => this.view.shown,
     boundsChanged: () => void this.drawBounds(),
@@ -262,14 +262,16 @@ class Studio {
     this.view.overlay.setRegion(null);
   }
 
-  private async askBoxes(): Promise<Box[]> {
-    const answer = await this.connection.ask({type: 'boxes'}) as {boxes: Box[]} | null;
-    return answer?.boxes ?? [];
+  private async askBoxes(): Promise<Boxes> {
+    const answer = await this.connection.ask({type: 'boxes'}) as Boxes | null;
+    return answer ?? {boxes: [], cutters: []};
   }
 
   private async drawBounds(): Promise<void> {
-    const boxes = this.controls.showsBounds ? await this.askBoxes() : [];
-    this.view.overlay.setBoxes(boxes);
+    const {showsBounds, showsCutters} = this.controls;
+    if (!showsBounds && !showsCutters) return this.view.overlay.setBoxes([], []);
+    const {boxes, cutters} = await this.askBoxes();
+    this.view.overlay.setBoxes(showsBounds ? boxes : [], showsCutters ? cutters : []);
   }
 
   // ---- the camera and the picture

@@ -1,4 +1,5 @@
-// What is drawn over the picture: the boxes of entities, and the region that is refined.
+// What is drawn over the picture: the boxes of entities and of what cuts them, and the region that
+// is refined.
 
 import {svg} from './dom';
 import {edgesOf, Projector} from './projection';
@@ -7,13 +8,15 @@ import type {Box, Camera, Region, Vector} from './protocol';
 export class Overlay {
   readonly element = svg('svg', {class: 'overlay', 'aria-hidden': 'true'});
   private readonly wires = svg('path', {class: 'wires'});
+  private readonly ghosts = svg('path', {class: 'wires ghosts'});
   private readonly region = svg('rect', {class: 'region', visibility: 'hidden'});
   private boxes: Box[] = [];
+  private cutters: Box[] = [];
   private camera: Camera | null = null;
   private size = {width: 1, height: 1};
 
   constructor() {
-    this.element.append(this.wires, this.region);
+    this.element.append(this.wires, this.ghosts, this.region);
   }
 
   setSize(width: number, height: number): void {
@@ -27,8 +30,10 @@ export class Overlay {
     this.draw();
   }
 
-  setBoxes(boxes: Box[]): void {
+  setBoxes(boxes: Box[], cutters: Box[]): void {
     this.boxes = boxes;
+    // The half-space of a section cuts, too. What has no end is left out.
+    this.cutters = cutters.filter(({lower, upper}) => ![...lower, ...upper].includes(null));
     this.draw();
   }
 
@@ -45,14 +50,16 @@ export class Overlay {
 
   private projector(): Projector | null {
     const {camera, size} = this;
-    return camera && Projector.knows(camera) ? new Projector(camera, size.width, size.height) : null;
+    if (!camera || !Projector.knows(camera)) return null;
+    return new Projector(camera, size.width, size.height);
   }
 
   private draw(): void {
-    const projector = this.boxes.length > 0 ? this.projector() : null;
-    if (!projector) return this.wires.setAttribute('d', '');
-    const lines = this.boxes.flatMap(edgesOf).map(([a, b]) => projector.edge(a, b));
-    this.wires.setAttribute('d', lines.map((line) => line &&
-      `M${line.map((place) => place.map((x) => x.toFixed(1)).join(' ')).join('L')}`).join(''));
+    const projector = this.projector();
+    const linesOf = (boxes: Box[]) => projector === null ? '' :
+      boxes.flatMap(edgesOf).map(([a, b]) => projector.edge(a, b)).map((line) => line &&
+        `M${line.map((place) => place.map((x) => x.toFixed(1)).join(' ')).join('L')}`).join('');
+    this.wires.setAttribute('d', linesOf(this.boxes));
+    this.ghosts.setAttribute('d', linesOf(this.cutters));
   }
 }

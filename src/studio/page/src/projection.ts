@@ -59,7 +59,8 @@ export class Projector {
     const cut = (): Vector => {
       const share = da / (da - db);
       // A little behind the plane where it was cut, so that rounding does not take it away.
-      return a.map((x, i) => x + (b[i]! - x) * share + this.forward[i]! * this.near * 1e-6) as Vector;
+      const margin = this.near * 1e-6;
+      return a.map((x, i) => x + (b[i]! - x) * share + this.forward[i]! * margin) as Vector;
     };
     const ends = [this.place(da < 0 ? cut() : a), this.place(db < 0 ? cut() : b)];
     return ends[0] && ends[1] ? [ends[0], ends[1]] : null;

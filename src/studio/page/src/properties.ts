@@ -19,6 +19,8 @@ export interface SheetHost {
 
 /** A drag of a pixel changes a number by such a share of it. */
 const dragShare = 0.01;
+/** The ball of a material waits for such a pause in typing. */
+const ballMilliseconds = 100;
 
 export class PropertySheet {
   /** For tests: what is known of attributes beside what the server says. */
@@ -27,6 +29,7 @@ export class PropertySheet {
   private objects = new Map<string, ObjectDescription>();
   private node: TreeNode | null = null;
   private readonly ball = document.createElement('img');
+  private ballTimer: ReturnType<typeof setTimeout> | undefined;
   /** While a gesture or a field has the attention, the sheet is not made anew. */
   private isBusy = false;
 
@@ -46,7 +49,8 @@ export class PropertySheet {
       node.span[0] === this.node.span[0] &&
       node.attributes.length === this.node.attributes.length;
     this.node = node;
-    if (node) void this.drawBall(node);
+    clearTimeout(this.ballTimer);
+    if (node) this.ballTimer = setTimeout(() => void this.drawBall(node), ballMilliseconds);
     const focused = this.element.contains(document.activeElement);
     if (isSame && (this.isBusy || focused)) return;
     this.draw();

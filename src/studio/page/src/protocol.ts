@@ -116,6 +116,12 @@ export interface Box {
   upper: (number | null)[];
 }
 
+/** The boxes of entities, and of what is cut from them. */
+export interface Boxes {
+  boxes: Box[];
+  cutters: Box[];
+}
+
 export interface Machine {
   type: 'machine';
   cores: number;

@@ -60,7 +60,8 @@ export class TradePlot {
     const step = Math.max(1, Math.floor(Math.sqrt(frame.width * frame.height / mostPixels)));
     const across = Math.ceil(frame.width / step);
     const key = `${frame.kind} ${frame.width} ${frame.height}`;
-    if (key !== this.key) this.pixels = new Uint8ClampedArray(4 * across * Math.ceil(frame.height / step));
+    if (key !== this.key)
+      this.pixels = new Uint8ClampedArray(4 * across * Math.ceil(frame.height / step));
     this.key = key;
     for (let row = Math.ceil(frame.row / step) * step; row < frame.row + frame.rows; row += step) {
       for (let i = 0; i < across; ++i) {

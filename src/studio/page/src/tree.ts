@@ -107,7 +107,7 @@ export class Tree {
     this.select(Math.min(this.selected, this.rows.length - 1));
   }
 
-  /** Says whether a node is a statement that puts entities into the scene, or does so in a macro. */
+  /** Says whether a node is a statement that puts entities into the scene, or one in a macro. */
   private canBeHidden(index: number): boolean {
     const node = this.nodes[index]!;
     const parent = this.nodes[node.parent];
@@ -122,7 +122,7 @@ export class Tree {
     const isHidden = this.eyes.isHidden(node.span);
     eye.className = isHidden ? 'eye shut' : 'eye';
     eye.tabIndex = -1;
-    eye.title = isHidden ? 'Show it again (H)' : 'Hide it in the view (H). The script stays as it is';
+    eye.title = isHidden ? 'Show it again (H)' : 'Hide it in the view alone (H)';
     eye.setAttribute('aria-label', `${isHidden ? 'Show' : 'Hide'} ${titleOf(node)}`);
     eye.addEventListener('click', (event) => {
       event.stopPropagation();

@@ -31,6 +31,7 @@ export class ViewControls {
   private readonly whole: HTMLButtonElement;
   private readonly all: HTMLButtonElement;
   private readonly bounds: HTMLInputElement;
+  private readonly cutters: HTMLInputElement;
   private readonly place = document.createElement('output');
 
   constructor(private readonly state: ViewState, comparison: Comparison, host: ControlsHost) {
@@ -46,13 +47,22 @@ export class ViewControls {
       state.set({region: null}));
     this.all = button('Show all', 'Show what was hidden in the scene tree', () =>
       state.set({hidden: []}));
-    const bounds = labelled('Bounds', this.bounds);
+    this.cutters = input('checkbox', 'Cutters', '', () => host.boundsChanged());
+    const bounds = labelled('Bounds');
     bounds.title = 'Draw the boxes around entities';
     bounds.prepend(this.bounds);
-    this.element.append(this.channel, bounds, this.section.element, comparison.controls, this.whole,
+    const cutters = labelled('Cutters');
+    cutters.title = 'Draw the boxes around what is cut away';
+    cutters.prepend(this.cutters);
+    this.element.append(this.channel, bounds, cutters, this.section.element, comparison.controls,
+                        this.whole,
                         this.all, this.time.element, this.place);
     this.place.title = 'Where the picture was clicked last';
     this.update();
+  }
+
+  get showsCutters(): boolean {
+    return this.cutters.checked;
   }
 
   get showsBounds(): boolean {

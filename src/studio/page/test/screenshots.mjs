@@ -17,12 +17,14 @@ await page.screenshot({path: join(project, 'docs/studio/overview.png')});
 
 // A section, with the boxes of what it cuts.
 await page.getByLabel('Bounds').check();
+await page.getByLabel('Cutters').check();
 await rendered(page, () => page.getByLabel('Section across').selectOption('2'));
 await rendered(page, () => page.getByLabel('Place of the section', {exact: true}).fill('0'));
 await page.locator('.tree .row', {hasText: 'Camera'}).first().click();
 await page.screenshot({path: join(project, 'docs/studio/section.png')});
 await rendered(page, () => page.getByLabel('Section across').selectOption(''));
 await page.getByLabel('Bounds').uncheck();
+await page.getByLabel('Cutters').uncheck();
 
 // The queue after a render by passes.
 await rendered(page, () => type(page, 'supersampling -> 4', 'timebudget -> 3 maxsamples -> 65536'));

@@ -103,6 +103,22 @@ withPage('boxes are drawn where the entities are', async ({page}) => {
   }
 });
 
+withPage('the boxes of what is cut away are drawn, and not the plane of a section',
+         async ({page}) => {
+  const drawn = () => page.evaluate(() => studio.view.overlay.ghosts.getAttribute('d'));
+  const edges = async () => ((await drawn()).match(/M/g) ?? []).length;
+  await page.getByLabel('Cutters').setChecked(true);
+  await rendered(page, () => type(page, '    ball\n',
+    '    (ball - Box { cornerA -> vec3(-2, 0, -1) cornerB -> vec3(-1, 1, 0) })\n'));
+  await page.waitForFunction(() => studio.view.overlay.ghosts.getAttribute('d') !== '');
+  assert.equal(await edges(), 12);
+  await rendered(page, () => page.getByLabel('Section across').selectOption('0'));
+  await page.waitForFunction(() => studio.view.overlay.cutters.length === 1);
+  assert.equal(await edges(), 12);
+  await page.getByLabel('Cutters').setChecked(false);
+  await page.waitForFunction(() => studio.view.overlay.ghosts.getAttribute('d') === '');
+});
+
 withPage('a region is dragged with Ctrl, refined alone, and given up by Escape', async ({page}) => {
   const first = await shownBytes(page);
   const area = await page.locator('.live canvas').boundingBox();
