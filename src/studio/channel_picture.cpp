@@ -13,7 +13,7 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-constexpr std::size_t bytes_of_pixel = 4;
+constexpr std::size_t rgba_bytes = 4;
 /// This is what a pixel that shows nothing looks like.
 constexpr Rgb nothing = {0.1, 0.1, 0.1};
 /// A scale leads from few to many by these colours.
@@ -50,13 +50,13 @@ template <class ColorOf>
 std::vector<std::uint8_t> painted(const Image& image, const ColorOf& color) {
   const std::span<const float> pixels = image.pixels();
   std::vector<std::uint8_t> rgba(pixels.size());
-  for (std::size_t i = 0; i < pixels.size() / bytes_of_pixel; ++i) {
-    if (pixels[bytes_of_pixel * i + 3] == 0) continue;
+  for (std::size_t i = 0; i < pixels.size() / rgba_bytes; ++i) {
+    if (pixels[rgba_bytes * i + 3] == 0) continue;
     const Rgb rgb = color(i);
     for (std::size_t k = 0; k < 3; ++k)
-      rgba[bytes_of_pixel * i + k] =
+      rgba[rgba_bytes * i + k] =
           static_cast<std::uint8_t>(std::lround(255 * std::clamp(rgb[k], 0.0, 1.0)));
-    rgba[bytes_of_pixel * i + 3] = 255;
+    rgba[rgba_bytes * i + 3] = 255;
   }
   return rgba;
 }
@@ -153,7 +153,7 @@ std::vector<std::uint8_t> displayed(const Image& image, Channel channel) {
 
 std::vector<std::uint8_t> placed(const std::vector<std::uint8_t>& rgba, const Region& region,
                                  int width, int height) {
-  const auto bytes = [](int pixels) { return bytes_of_pixel * static_cast<std::size_t>(pixels); };
+  const auto bytes = [](int pixels) { return rgba_bytes * static_cast<std::size_t>(pixels); };
   std::vector<std::uint8_t> whole(bytes(width) * static_cast<std::size_t>(height));
   for (int row = 0; row < region.height; ++row) {
     const std::size_t from = bytes(region.width) * static_cast<std::size_t>(row);
