@@ -18,7 +18,7 @@ endif()
 # The compiler must not fuse a * b + c on its own: results would depend on it. Every fma is written.
 target_compile_options(crt_compile INTERFACE -ffp-contract=off)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  target_compile_options(crt_compile INTERFACE -march=x86-64-v3)
+  include(CrtInstructions)
 endif()
 
 if(CRT_SANITIZE)

@@ -3,6 +3,10 @@
 # no two sources of a folder may give one name to different things.
 # A name may hide one of another source, though. Whether it does within a source, other builds say.
 target_compile_options(crt_compile INTERFACE -Wno-shadow)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC takes sources that are included for headers, which must have no unnamed namespaces.
+  target_compile_options(crt_compile INTERFACE -Wno-subobject-linkage)
+endif()
 
 foreach(target crt_core crt_lang crt_farm crt_capi_objects crt_format crt_service crt_source
   crt_lsp crt_trade crt_studio crt)

@@ -92,11 +92,13 @@ bool start_reading(Reader& reader, int& passes) {
 }
 
 /// Converts RGBA of 16 bits, the higher byte first and alpha straight, to floats with premultiplied
-/// alpha.
-void convert(const unsigned char* from, std::size_t pixels, float* to) {
-  constexpr float largest = 65535.0f;
+/// alpha. They have the bits that OpenImageIO gives them, which multiplies by the rounded inverse
+/// of the largest number in the file. It takes numbers of fewer than 8 bits for 8 bits.
+void convert(const unsigned char* from, std::size_t pixels, bool has_sixteen_bits, float* to) {
+  const float scale = 1.0f / (has_sixteen_bits ? 65535.0f : 255.0f);
   const auto number = [&](std::size_t i) {
-    return static_cast<float>(from[2 * i] << 8 | from[2 * i + 1]) / largest;
+    const int high = from[2 * i];
+    return static_cast<float>(has_sixteen_bits ? high << 8 | from[2 * i + 1] : high) * scale;
   };
   for (std::size_t i = 0; i < 4 * pixels; i += 4) {
     const float alpha = number(i + 3);
@@ -126,6 +128,7 @@ ImageFilesStatus decode_png(const ImageFilesContent& content, const ImageFilesPi
   if (!read_header(reader)) return failed(error, reader.failure.message.data());
   const std::size_t width = png_get_image_width(reader.png, reader.info);
   const std::size_t height = png_get_image_height(reader.png, reader.info);
+  const bool has_sixteen_bits = png_get_bit_depth(reader.png, reader.info) == 16;
   if (width > content.max_pixels / height) {
     return failed(error,
                   ("its header says " + std::to_string(width) + " x " + std::to_string(height) +
@@ -154,7 +157,7 @@ ImageFilesStatus decode_png(const ImageFilesContent& content, const ImageFilesPi
                             true);
     }
     if (to == nullptr) return image_files_out_of_memory;
-    convert(bytes.get(), count * width, to);
+    convert(bytes.get(), count * width, has_sixteen_bits, to);
     to += 4 * count * width;
   }
   return image_files_ok;

@@ -5,13 +5,12 @@
 #include <array>
 
 #include "extremes/support.hpp"
+#include "support/quad.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-__extension__ using Quad = __float128;
 
 struct QuadVec {
   Quad x = 0;

@@ -4,13 +4,12 @@
 #include <crt/script.hpp>
 
 #include "extremes/support.hpp"
+#include "support/quad.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-__extension__ using Quad = __float128;
 
 /// A Chord is the t of both crossings of a scaled unit ball about the origin, by the quadratic in
 /// quadruple precision. M^-1 of the 9 doubles of M is by Cramer's rule. There is none if the line

@@ -10,10 +10,11 @@
 
 #include "core/geometry/shape.hpp"
 #include "geometry/random.hpp"
+#include "support/quad.hpp"
 
 namespace crt::test {
 
-using Real = __float128;
+using Real = Quad;
 
 Real square_root(Real x);
 inline Real magnitude(Real x) {

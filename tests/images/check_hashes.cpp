@@ -1,5 +1,6 @@
 // Compares the hashes of example pictures and of queries' answers with those in hashes.txt, on
-// whatever machine this runs:  check_hashes [STEP]   takes every STEP-th example, all by default.
+// whatever machine this runs:
+//   check_hashes [STEP [FIRST]]   takes every STEP-th example from that number on, all by default.
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
@@ -10,12 +11,15 @@
 using namespace crt::tests;
 
 int main(int argc, char** argv) try {
-  const int step = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
+  const auto number = [&](int place, int least) {
+    return static_cast<std::size_t>(argc > place ? std::max(least, std::atoi(argv[place])) : least);
+  };
+  const std::size_t step = number(1, 1);
   const Hashes known = read_hashes();
   const std::vector<ExamplePicture> pictures = example_pictures();
   std::size_t compared = 0;
   std::size_t different = 0;
-  for (std::size_t i = 0; i < pictures.size(); i += static_cast<std::size_t>(step)) {
+  for (std::size_t i = number(2, 0); i < pictures.size(); i += step) {
     for (const auto& [name, hash] : hashes_of(pictures[i])) {
       ++compared;
       const auto old = known.find(name);

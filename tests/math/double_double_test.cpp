@@ -7,12 +7,13 @@
 #include <random>
 
 #include "core/math/vector.hpp"
+#include "support/quad.hpp"
 
 using namespace crt::core;
 
 namespace {
 
-using Real = __float128;
+using Real = crt::test::Quad;
 
 Real exact(const DoubleDouble& a) {
   return Real(a.hi) + Real(a.lo);

@@ -6,8 +6,11 @@
 #include <numbers>
 #include <vector>
 
+#include "support/quad.hpp"
+
 using namespace crt::core;
 using crt::Vec3;
+using crt::test::Quad;
 
 namespace {
 
@@ -23,15 +26,15 @@ const Vec3 up(0, 1, 0);
 /// Returns the reflectance by the textbook equations as they are usually written, in quadruple
 /// precision.
 double textbook_reflectance(double cosine, double index_1, double index_2) {
-  const __float128 n1 = index_1;
-  const __float128 n2 = index_2;
-  const __float128 c1 = cosine;
-  const __float128 squared = 1 - n1 * n1 / (n2 * n2) * (1 - c1 * c1);
+  const Quad n1 = index_1;
+  const Quad n2 = index_2;
+  const Quad c1 = cosine;
+  const Quad squared = 1 - n1 * n1 / (n2 * n2) * (1 - c1 * c1);
   if (squared <= 0) return 1;
-  __float128 c2 = std::sqrt(static_cast<long double>(squared));
+  Quad c2 = std::sqrt(static_cast<long double>(squared));
   c2 = (c2 + squared / c2) / 2;  // one step of Newton's method: from long double to quadruple
-  const __float128 across = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2);
-  const __float128 within = (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2);
+  const Quad across = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2);
+  const Quad within = (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2);
   return static_cast<double>((across * across + within * within) / 2);
 }
 

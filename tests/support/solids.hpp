@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "crt/entity.hpp"
+#include "support/quad.hpp"
 
 namespace crt::test {
-
-__extension__ using Quad = __float128;
 
 struct QuadPoint {
   Quad x = 0;

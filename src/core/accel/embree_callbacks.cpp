@@ -108,6 +108,8 @@ void visit_sphere(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays
     only[ray % octet_size] = true;
     search.meet(sphere, arguments.primID, first, only, octet);
     RTCRayN_tfar(rays, count, i) = columns[6][ray % octet_size];
+    // From a copy of a part of a packet, Embree takes the ends of those rays that hit something.
+    RTCHitN_geomID(RTCRayHitN_HitN(arguments.rayhit, count), count, i) = arguments.geomID;
   }
 }
 

@@ -57,7 +57,8 @@ struct EmbreeTree::Part {
   explicit Part(std::size_t first) : first_ray(first) {}
 
   /// Calls put(group, lanes) for each group of the rays that is in the part. Then it sets what all
-  /// rays of the part have alike.
+  /// rays of the part have alike. Rays that are not followed end before they start: without packets
+  /// of this size, as on AArch64, Embree looks at that alone, and not at `valid`.
   template <class Put>
   void fill(RayMask rays, const Put& put) {
     for (std::size_t first = 0; first < count; first += lane_count) {
@@ -73,6 +74,7 @@ struct EmbreeTree::Part {
       ray_hits.ray.id[ray] = static_cast<unsigned>(first_ray + ray);
       ray_hits.ray.flags[ray] = 0;
       ray_hits.hit.geomID[ray] = RTC_INVALID_GEOMETRY_ID;
+      if (valid[ray] == 0) ray_hits.ray.tfar[ray] = -float_infinity;
     }
   }
 
