@@ -45,8 +45,8 @@ test('a newcomer opens an example, changes it, looks around and saves it', async
   const box = await label.boundingBox();
   await page.mouse.move(box.x + 5, box.y + 5);
   await page.mouse.down();
-  await page.mouse.move(box.x + 25, box.y + 5, {steps: 5});
-  await rendered(page, () => page.mouse.up());
+  await rendered(page, () => page.mouse.move(box.x + 25, box.y + 5, {steps: 5}));
+  await page.mouse.up();
   assert.notEqual(await text(page), before);
 
   // Saving writes what is seen, and nothing is left to be saved.
