@@ -21,7 +21,7 @@ enum class SourceLanguage {
 /// SourceCode is a program, or a part of one.
 struct SourceCode {
   std::string text{};
-  /// Say, a line each, in what the code may differ from what it was written of.
+  /// They say, a line each, in what the code may differ from what it was written of.
   std::vector<std::string> warnings{};
 };
 
@@ -50,9 +50,9 @@ SourceCode source_code(const Entity& entity, const SourceOptions& options = {});
 struct EntityDescription {
   /// The type of a primitive ("Sphere"), "Union", "Intersection", "Difference" or "Placed".
   std::string kind{};
-  /// Is the place of what it is a part of in the list, or `no_parent` for an entity of the scene.
+  /// This is the place of what it is a part of in the list, or `no_parent` for an entity of the scene.
   std::size_t parent = no_parent;
-  /// Are the names and values of its fields, as Python writes them: "(0, 1, 0)".
+  /// These are the names and values of its fields, as Python writes them: "(0, 1, 0)".
   std::vector<std::pair<std::string, std::string>> values{};
 
   static constexpr std::size_t no_parent = static_cast<std::size_t>(-1);
