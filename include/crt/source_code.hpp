@@ -50,7 +50,8 @@ SourceCode source_code(const Entity& entity, const SourceOptions& options = {});
 struct EntityDescription {
   /// The type of a primitive ("Sphere"), "Union", "Intersection", "Difference" or "Placed".
   std::string kind{};
-  /// This is the place of what it is a part of in the list, or `no_parent` for an entity of the scene.
+  /// This is the place in the list of what it is a part of, or `no_parent` for an entity of the
+  /// scene.
   std::size_t parent = no_parent;
   /// These are the names and values of its fields, as Python writes them: "(0, 1, 0)".
   std::vector<std::pair<std::string, std::string>> values{};
