@@ -39,7 +39,7 @@ class WorkLog {
   void write(double share, double seconds) {
     written_ = Clock::now();
     try {
-      write_file(file_, fmt::format("{} {:.3f} {:.3f}\n", worker_, share, seconds));
+      write_file(file_, fmt::format("{} {:.3f} {:.6f}\n", worker_, share, seconds));
     } catch (const Error&) {
       return;
     }

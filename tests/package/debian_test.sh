@@ -66,7 +66,7 @@ doc=\\./usr/share/doc
 expect_files "$library" "$lib/libcrt\\.so\\.$major(\\.[0-9.]+)?" "$lib/crt/crt_image_files\\.so" \
   "$doc/$library/copyright"
 expect_files libcrt-dev '\./usr/include/crt/[a-z_]+\.(h|hpp)' \
-  "$lib/libcrt(_core|_farm|_format|_lang|_service|)\\.(so|a)" \
+  "$lib/libcrt(_core|_farm|_format|_lang|_service|_source|_studio|)\\.(so|a)" \
   "$lib/cmake/crt/.*\\.cmake" "$lib/pkgconfig/crt\\.pc" "$doc/crt/.*" "$doc/libcrt-dev/copyright"
 expect_files crt '\./usr/bin/crt' '\./usr/share/man/man1/crt\.1' \
   '\./usr/share/bash-completion/completions/crt' '\./usr/share/zsh/site-functions/_crt' \

@@ -46,6 +46,13 @@ export const shownBytes = (page) => page.evaluate(() => {
   return [...canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data];
 });
 
+/** Waits until the picture is as it was. */
+export const showsBytes = (page, bytes) => page.waitForFunction((wanted) => {
+  const {canvas} = studio.view;
+  const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  return data.length === wanted.length && data.every((byte, i) => byte === wanted[i]);
+}, bytes);
+
 /** Clicks the picture at a share of its sides. */
 export async function clickPicture(page, x, y, options = {}) {
   const box = await page.locator('.live canvas').boundingBox();

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {test} from 'node:test';
-import {browser, clickPicture, pixelAt, scene, shownBytes, withPage} from './page.mjs';
+import {browser, clickPicture, pixelAt, scene, shownBytes, showsBytes, withPage} from './page.mjs';
 import {folderWith, openPage, rendered, startServer, text, type, whole} from './studio.mjs';
 
 const ball = [0.29, 0.5];
@@ -152,8 +152,9 @@ withPage('time has a slider where the script reads t, and plays', async ({page})
   await page.getByRole('button', {name: '▶'}).click();
   await page.waitForFunction(() => studio.viewState.options.t >= 53);
   await page.getByRole('button', {name: '⏸'}).click();
-  await rendered(page, () => slider.fill('0'));
-  assert.deepEqual(await shownBytes(page), start);
+  await slider.fill('0');
+  // A frame that was under way may still be shown before.
+  await showsBytes(page, start);
 });
 
 withPage('a kept picture is compared with later ones', async ({page}) => {
