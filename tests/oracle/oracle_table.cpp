@@ -1,8 +1,8 @@
 // Measures the accuracy of every primitive, of trees of them, of meshes and of fields, and whether
 // all queries agree. It writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT
-// [PRIMITIVE...] With names of primitives ("half plane"), "trees", "meshes", "fields" or
-// "agreement" only those are measured, and their rows in the page replaced or added; the plot and
-// everything else stays as it is.
+// [PRIMITIVE...] With names of primitives ("half plane"), of kinds of meshes ("slivers", "mesh
+// minus mesh"), "trees", "meshes", "fields" or "agreement" only those are measured, and their rows
+// in the page replaced or added; the plot and everything else stays as it is.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -35,6 +35,7 @@ constexpr std::uint64_t rays_per_field = 200;
 constexpr const char* trees = "trees";
 constexpr const char* meshes = "meshes";
 constexpr const char* fields = "fields";
+constexpr const char* difference = "mesh minus mesh";
 constexpr const char* agreement = "agreement";
 
 /// Returns nanoseconds a ray: the best of many rounds, as other work may disturb some.
@@ -136,14 +137,17 @@ class Measuring {
     tell(tree_rows(all.trees));
   }
 
-  void meshes() {
+  template <class IsWanted>
+  void meshes(const IsWanted& is_wanted) {
     constexpr std::uint64_t parts = mesh_kinds + 1;
     const std::uint64_t rays = rays_ / mesh_share / parts;
     for (std::size_t kind = 0; kind < mesh_kinds; ++kind) {
       const auto of = static_cast<MeshKind>(kind);
-      mesh_part({name_of(of), measure_meshes(of, most_triangles, rays)});
+      if (is_wanted(name_of(of)))
+        mesh_part({name_of(of), measure_meshes(of, most_triangles, rays)});
     }
-    mesh_part({"mesh minus mesh", measure_mesh_differences(most_triangles, rays)});
+    if (is_wanted(difference))
+      mesh_part({difference, measure_mesh_differences(most_triangles, rays)});
   }
 
   void fields() {
@@ -196,8 +200,11 @@ void write(const char* path, const std::string& text) {
 }
 
 bool is_known(const std::string& name) {
-  for (const char* known : {trees, meshes, fields, agreement}) {
+  for (const char* known : {trees, meshes, difference, fields, agreement}) {
     if (name == known) return true;
+  }
+  for (std::size_t kind = 0; kind < mesh_kinds; ++kind) {
+    if (name == name_of(static_cast<MeshKind>(kind))) return true;
   }
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
     if (name_of_primitive(kind) == name) return true;
@@ -226,7 +233,7 @@ int main(int argc, char** argv) try {
     if (is_wanted(name_of_primitive(kind))) measuring.primitive(kind);
   }
   if (is_wanted(trees)) measuring.trees();
-  if (is_wanted(meshes)) measuring.meshes();
+  measuring.meshes([&](std::string_view kind) { return is_wanted(meshes) || is_wanted(kind); });
   if (is_wanted(fields)) measuring.fields();
   if (is_wanted(agreement)) measuring.agreement();
   if (names.empty()) {
