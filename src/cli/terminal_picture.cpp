@@ -11,6 +11,7 @@
 
 #include "cli/film.hpp"
 #include "cli/terminal_graphics.hpp"
+#include "text/base64.hpp"
 
 namespace crt::cli {
 
@@ -135,25 +136,10 @@ std::string sixels(const BytePicture& picture) {
 
 // ---- kitty ----------------------------------------------------------------------------------
 
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
-    std::uint32_t three = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      three = three << 8 | (i < count ? std::to_integer<std::uint32_t>(bytes[at + i]) : 0);
-    for (std::size_t i = 0; i < 4; ++i)
-      text += i <= count ? digits[three >> (18 - 6 * i) & 63] : '=';
-  }
-  return text;
-}
-
 /// Returns a PNG file in pieces of 4096 characters, the most that the protocol allows.
 std::string kitty(const Image& image) {
   constexpr std::size_t most = 4096;
-  const std::string file = base64(image.encode("png", {.colors_only = true}));
+  const std::string file = text::base64(image.encode("png", {.colors_only = true}));
   std::string text;
   for (std::size_t at = 0; at < file.size(); at += most) {
     const int more_follows = at + most < file.size() ? 1 : 0;

@@ -5,9 +5,9 @@
 #include <crt/prepared_scene.hpp>
 #include <crt/render.hpp>
 #include <crt/script.hpp>
-#include <cstddef>
-#include <span>
 #include <string_view>
+
+#include "text/base64.hpp"
 
 namespace crt::studio {
 
@@ -37,21 +37,6 @@ Scene {
     }
     Sphere { center -> vec3(0, 0, 0) radius -> 1 material -> )";
 
-std::string in_base64(std::span<const std::byte> bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string result;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8U | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      result += k <= count ? digits[three >> (18 - 6 * k) & 63U] : '=';
-  }
-  return result;
-}
-
 /// Returns the script with the ball in place of its own scene.
 std::string script_of_ball(std::string text, const std::vector<ScriptNode>& tree,
                            TextSpan material) {
@@ -78,7 +63,7 @@ std::optional<std::string> material_ball(const std::string& text, const std::str
     const ScriptResult result = run_script(script_of_ball(text, tree, node->span), name, options);
     if (!result.scene) return std::nullopt;
     const Image image = render(prepare(*result.scene), RenderOptions{.threads = 1});
-    return in_base64(image.encode("png", {.reproducible = true}));
+    return text::base64(image.encode("png", {.reproducible = true}));
   } catch (const Error&) {
     return std::nullopt;
   }

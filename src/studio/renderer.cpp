@@ -252,7 +252,7 @@ void Renderer::draw_drafts() {
 
 void Renderer::draw_draft(int step, bool may_be_cancelled) {
   Scene draft = draft_of(view_->scene, step);
-  if (is_geometric(options_.channel)) draft.settings.recursion_depth = 0;
+  if (is_geometric(options_.channel)) draft = geometry_of(std::move(draft));
   RenderOptions options = render_options();
   options.progress = [&](double) { return may_be_cancelled ? !is_old() : !script_is_old(); };
   const Clock::time_point begin = Clock::now();
