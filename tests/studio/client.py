@@ -3,12 +3,15 @@
 import base64
 import json
 import os
+import pathlib
 import re
 import signal
 import socket
 import struct
 import subprocess
+import tempfile
 import time
+import unittest
 
 STUDIO = os.environ["CRT_STUDIO"]
 SECONDS = 60
@@ -180,3 +183,22 @@ class Client:
             message = self.receive()
             if isinstance(message, bytes) and message[:4] == b"CRTI":
                 return message[8:]
+
+
+class OpenedFolder(unittest.TestCase):
+    """Has a server on a folder with the script a.crt, which has the text SCENE."""
+
+    SCENE = ""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        (self.folder / "a.crt").write_text(self.SCENE)
+        self.server = Server(self.folder, "a.crt")
+        self.addCleanup(self.server.end)
+
+    def connect(self):
+        client = Client(self.server)
+        self.addCleanup(client.close)
+        return client

@@ -2,13 +2,11 @@
 
 import base64
 import os
-import pathlib
 import struct
 import subprocess
-import tempfile
 import unittest
 
-from client import Client, Server
+from client import OpenedFolder
 
 COMMAND = os.environ["CRT_COMMAND"]
 WIDTH, HEIGHT = 96, 64
@@ -27,16 +25,12 @@ LEFT, RIGHT, CORNER = (28, 32), (66, 32), (2, 2)
 ALL = {"channel": "color", "hidden": [], "section": None, "region": None, "t": 0}
 
 
-class View(unittest.TestCase):
+class View(OpenedFolder):
+    SCENE = SCENE
+
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-        (self.folder / "a.crt").write_text(SCENE)
-        self.server = Server(self.folder, "a.crt")
-        self.addCleanup(self.server.end)
-        self.client = Client(self.server)
-        self.addCleanup(self.client.close)
+        super().setUp()
+        self.client = self.connect()
         self.client.open("a.crt")
         self.client.set_text(SCENE)
         self.pixels = bytearray(4 * WIDTH * HEIGHT)

@@ -1,14 +1,12 @@
 """The studio does what a page needs: pictures, what the script means, picking, files."""
 
 import os
-import pathlib
 import signal
 import struct
 import subprocess
-import tempfile
 import unittest
 
-from client import Client, Server
+from client import OpenedFolder
 
 COMMAND = os.environ["CRT_COMMAND"]
 SCENE = """-- Zwei Kugeln: ä, 😀.
@@ -35,22 +33,11 @@ def units(text):
     return len(text.encode("utf-16-le")) // 2
 
 
-class Work(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-        (self.folder / "a.crt").write_text(SCENE)
-        self.server = Server(self.folder, "a.crt")
-        self.addCleanup(self.server.end)
-
-    def client(self):
-        client = Client(self.server)
-        self.addCleanup(client.close)
-        return client
+class Work(OpenedFolder):
+    SCENE = SCENE
 
     def start(self, text=SCENE):
-        client = self.client()
+        client = self.connect()
         client.open("a.crt")
         client.set_text(text)
         return client
@@ -60,7 +47,7 @@ class Work(unittest.TestCase):
         return data[2 * span[0] : 2 * span[1]].decode("utf-16-le")
 
     def test_the_page_learns_what_there_is(self):
-        client = self.client()
+        client = self.connect()
         self.assertEqual(client.hello["script"], "a.crt")
         self.assertEqual(client.hello["scripts"], ["a.crt"])
         objects = {item["name"]: item for item in client.hello["objects"]}
@@ -262,7 +249,7 @@ class Work(unittest.TestCase):
 
     def test_line_ends_stay_those_of_the_file(self):
         (self.folder / "a.crt").write_bytes(b"a = 1\r\nb = 2\r\n")
-        client = self.client()
+        client = self.connect()
         self.assertEqual(client.open("a.crt"), "a = 1\nb = 2\n")
         client.send(type="save", script="a.crt", text="a = 1\nb = 3\n")
         client.wait("saved")
