@@ -87,4 +87,8 @@ struct EntityDescription {
 /// descriptions the parts of entities are left out, but not the entities themselves.
 std::vector<EntityDescription> describe_entities(const Scene& scene, std::size_t most = 10000);
 
+/// Returns a JSON array of objects with kind, parent (null for an entity of the scene) and values:
+/// an object of numbers, arrays of numbers and texts.
+std::string descriptions_to_json(const std::vector<EntityDescription>& descriptions);
+
 }  // namespace crt
