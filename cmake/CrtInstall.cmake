@@ -77,8 +77,9 @@ foreach(library embree TBB::tbb fmt::fmt)
 endforeach()
 list(JOIN pc_directories " " pc_directories)
 string(CONCAT pc_private
-  "-lcrt_farm -lcrt_lang -lcrt_core ${pc_directories} -lembree${embree_VERSION_MAJOR} -ltbb -lfmt"
-  " -lz -lexpat -lstdc++ -lm -ldl -pthread -Wl,-rpath,\${libdir}/crt")
+  "-lcrt_farm -lcrt_source -lcrt_lang -lcrt_core ${pc_directories}"
+  " -lembree${embree_VERSION_MAJOR} -ltbb -lfmt -lz -lexpat -lstdc++ -lm -ldl -pthread"
+  " -Wl,-rpath,\${libdir}/crt")
 string(REPLACE "  " " " pc_private "${pc_private}")
 configure_file(${CMAKE_CURRENT_LIST_DIR}/crt.pc.in ${PROJECT_BINARY_DIR}/package/crt.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/package/crt.pc

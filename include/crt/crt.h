@@ -839,6 +839,19 @@ CRT_API crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double
  */
 CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
 
+/**
+ * Describes an entity and what it is made of, as JSON: a list of objects, each before its parts. A
+ * `kind` is the type of a primitive ("Sphere"), "Union", "Intersection", "Difference", "Placed" or
+ * "Empty". `parent` is the place in the list of what it is a part of, and null for the entity
+ * itself. `values` has the numbers and vectors of its fields, by name, and what its material is
+ * like. After 10000 parts the rest is left out. Since 1.1.
+ * @param json      an array of `capacity` bytes, which gets as much of the text as fits, and a 0
+ *                  after it; NULL if that is 0
+ * @param length    gets the length of the whole text without the 0
+ */
+CRT_API crt_status crt_entity_describe(crt_entity* entity, char* json, size_t capacity,
+                                       size_t* length);
+
 /** @} */
 
 /* ---- scenes --------------------------------------------------------------------------------- */
@@ -863,6 +876,10 @@ CRT_API crt_status crt_scene_set_camera(crt_scene* scene, const crt_camera* came
 CRT_API crt_status crt_scene_set_background(crt_scene* scene, const crt_background* background);
 /** Replaces all settings, and copies the texts. */
 CRT_API crt_status crt_scene_set_settings(crt_scene* scene, const crt_settings* settings);
+/** Puts an entity in the place of another one. Since 1.1. */
+CRT_API crt_status crt_scene_replace_entity(crt_scene* scene, size_t index, crt_entity* entity);
+/** Takes out an entity. Those after it move up, and so do the ids that they report. Since 1.1. */
+CRT_API crt_status crt_scene_remove_entity(crt_scene* scene, size_t index);
 /** Takes out all entities. */
 CRT_API crt_status crt_scene_clear_entities(crt_scene* scene);
 /** Takes out all lights. */
@@ -885,6 +902,16 @@ CRT_API crt_status crt_scene_get_camera(const crt_scene* scene, crt_camera* came
 CRT_API crt_status crt_scene_get_background(const crt_scene* scene, crt_background* background);
 /** Gives the settings. Their texts are valid until the scene changes. */
 CRT_API crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* settings);
+
+/**
+ * Writes the scene as a script in the CRT language, which renders the same picture. Meshes, images
+ * and large height fields go into files beside it, whose names begin with its own and have a hash
+ * of what they are. They are written first, so that the file of the script has the new text or
+ * still the old one. Files of older texts stay. Numbers that the language cannot have are rounded:
+ * see "Programs from scripts" in docs/command.md. It fails with CRT_ERROR_UNSUPPORTED for what it
+ * has no form of at all, such as custom shapes. Since 1.1.
+ */
+CRT_API crt_status crt_scene_save_script(crt_scene* scene, const char* path);
 
 /**
  * Checks the scene, which stays as it is, and builds what rays need. That is not built again while

@@ -7,6 +7,7 @@ a + b or a | b is the union, a - b the difference, a ^ b or a & b the intersecti
 """
 
 import ctypes
+import json
 import math
 from collections.abc import Iterable, Sequence
 from typing import Any, SupportsFloat, SupportsIndex
@@ -113,10 +114,24 @@ class Entity(Handle):
     @property
     def solid_fault(self) -> str:
         """Says why it has no inside: of a mesh which edge is open. It is empty for a solid."""
+        return self._text("crt_entity_solid_fault")
+
+    def describe(self) -> list[dict[str, Any]]:
+        """Returns what it is and what it is made of: a list of dictionaries, each before its
+        parts. A `kind` is the type of a primitive ("Sphere"), "Union", "Intersection",
+        "Difference", "Placed" or "Empty". `parent` is the place in the list of what it is a part
+        of, and None for the entity itself. `values` has the numbers and vectors of its fields, and
+        what its material is like. After 10000 parts the rest is left out."""
+        parts: list[dict[str, Any]] = json.loads(self._text("crt_entity_describe"))
+        return parts
+
+    def _text(self, function: str) -> str:
+        """Returns what a function of the library writes into an array of bytes."""
+        call = getattr(library, function)
         length = ctypes.c_size_t()
-        library.crt_entity_solid_fault(self._handle, None, 0, ctypes.byref(length))
+        call(self._handle, None, 0, ctypes.byref(length))
         text = ctypes.create_string_buffer(length.value + 1)
-        library.crt_entity_solid_fault(self._handle, text, len(text), ctypes.byref(length))
+        call(self._handle, text, len(text), ctypes.byref(length))
         return text.value.decode()
 
     @property

@@ -1,4 +1,4 @@
-"""Scripts are shown live in notebooks: a picture that is rendered while the script is changed."""
+"""Scripts and scenes are shown live in notebooks: a picture that is rendered while they change."""
 
 import html
 import os
@@ -8,30 +8,32 @@ import shutil
 import subprocess
 import tempfile
 import weakref
-from typing import Any
+from typing import IO, Any
 
 from . import _arguments
 from .errors import Error, Status
 from .options import Path
+from .scenes import Scene
 
 # The server prints its address as soon as it listens.
 _ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/#token=[0-9a-f]+")
 
 
 class Live:
-    """A Live shows a script as a picture that can be turned about and zoomed, in notebooks and at
-    its `address` in a browser on this machine:
+    """A Live shows a scene or a script as a picture that can be turned about and zoomed, in
+    notebooks and at its `address` in a browser on this machine:
 
-        view = crt.live('Scene { Sphere { center -> vec3(0, 0, 0) radius -> 1 } }')
+        view = crt.live(scene)
         view                                    # shows it
-        view.script = view.script.replace("1", "0.5")   # and shows another one
+        scene.entities.append(crt.Sphere((0, 2, 0), 0.5))
+        view.show(scene)                        # and shows what has become of it
 
     It is made by the program `crt studio`, which must be installed, and ends with the object.
     """
 
     def __init__(
         self,
-        script: Path,
+        scene: Scene | Path,
         *,
         height: int = 480,
         whole_page: bool = False,
@@ -39,9 +41,10 @@ class Live:
         threads: int = 0,
         command: str = "crt",
     ) -> None:
-        """Takes a script as text, or as a pathlib.Path of its file. `height` is that of the frame
-        in pixels. `whole_page` shows the whole studio with its editor, and not the picture alone.
-        `command` is the program crt. If it cannot serve the script it raises crt.Error."""
+        """Takes a scene, which is shown as it is now, a script as text, or the pathlib.Path of its
+        file. `height` is that of the frame in pixels. `whole_page` shows the whole studio with its
+        editor, and not the picture alone. `command` is the program crt. If it cannot serve the
+        script it raises crt.Error."""
         if shutil.which(command) is None:
             raise Error(
                 Status.UNSUPPORTED,
@@ -49,28 +52,33 @@ class Live:
                 " studio in crt-studio",
             )
         self._folder: tempfile.TemporaryDirectory[str] | None = None
-        if isinstance(script, str):
-            if "\n" not in script and script.strip().lower().endswith(".crt"):
-                raise ValueError(
-                    f"live: {_arguments.shown(script)} is a path, not the text of a script: use"
-                    f" crt.live(pathlib.Path({script!r}))"
-                )
+        if isinstance(scene, str) and "\n" not in scene and scene.strip().lower().endswith(".crt"):
+            raise ValueError(
+                f"live: {_arguments.shown(scene)} is a path, not the text of a script: use"
+                f" crt.live(pathlib.Path({scene!r}))"
+            )
+        if isinstance(scene, os.PathLike):
+            self._file = pathlib.Path(scene)
+        elif isinstance(scene, (Scene, str)):
             self._folder = tempfile.TemporaryDirectory(prefix="crt-live-")
             self._file = pathlib.Path(self._folder.name, "scene.crt")
-            self._file.write_text(script, encoding="utf-8")
-        elif isinstance(script, os.PathLike):
-            self._file = pathlib.Path(script)
+            try:
+                self.show(scene)
+            except BaseException:
+                self._folder.cleanup()
+                raise
         else:
-            raise _arguments.refusal("live: script", "a text or a pathlib.Path", script)
+            raise _arguments.refusal("live: scene", "a Scene, a text or a pathlib.Path", scene)
         self._height = _arguments.whole(height, "live: height")
         self._whole_page = whole_page
         number = _arguments.whole(threads, "live: threads")
         words = [command, "studio", str(self._file), "--embed", "--threads", str(number)]
         if port:
             words += ["--port", str(_arguments.whole(port, "live: port"))]
-        process = _started(words)
-        self._end = weakref.finalize(self, _end, process, self._folder)
-        self._address = _address(process, self._end)
+        with tempfile.TemporaryFile("w+") as errors:  # a pipe that nobody reads would fill up
+            process = _started(words, errors)
+            self._end = weakref.finalize(self, _end, process, self._folder)
+            self._address = _address(process, errors, self._end)
 
     @property
     def address(self) -> str:
@@ -90,6 +98,18 @@ class Live:
         part = self._file.with_name(f".{self._file.name}.new")
         part.write_text(text, encoding="utf-8")
         part.replace(self._file)
+
+    def show(self, scene: Scene | str) -> None:
+        """Shows a scene as it is now, or the text of a script, in the place of what it showed."""
+        if not isinstance(scene, Scene):
+            self.script = scene
+            return
+        before = _files_in(self._folder)
+        scene.save_script(self._file)
+        after = _files_in(self._folder)
+        for file in before:  # those that were not written again belong to what was shown before
+            if after.get(file) == before[file]:
+                file.unlink()
 
     @property
     def is_running(self) -> bool:
@@ -121,32 +141,39 @@ class Live:
         return {"text/html": frame, "text/plain": repr(self)}
 
 
+def _files_in(folder: "tempfile.TemporaryDirectory[str] | None") -> dict[pathlib.Path, int]:
+    """Returns the files of a folder with their numbers, which are new if they are replaced."""
+    if folder is None:
+        return {}
+    return {file: file.stat().st_ino for file in pathlib.Path(folder.name).glob("scene-*")}
 
-def _started(words: list[str]) -> "subprocess.Popen[str]":
+
+def _started(words: list[str], errors: IO[str]) -> "subprocess.Popen[str]":
     return subprocess.Popen(
         words,
         stdin=subprocess.PIPE,  # its end is that of the server, if this process is killed
         stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        stderr=errors,
         text=True,
     )
 
 
-def _address(process: "subprocess.Popen[str]", end: weakref.finalize) -> str:
+def _address(process: "subprocess.Popen[str]", errors: IO[str], end: weakref.finalize) -> str:
     """Waits until the server listens, and returns where."""
-    assert process.stdout is not None and process.stderr is not None
+    assert process.stdout is not None
     found = _ADDRESS.search(process.stdout.readline())
     if found:
         return found[0]
-    why = process.stderr.read().strip().removeprefix("crt: error: ")
     end()
+    errors.seek(0)
+    why = errors.read().strip().removeprefix("crt: error: ")
     raise Error(Status.IO, f"live: {why or 'the studio has ended'}")
 
 
 def _end(
     process: "subprocess.Popen[str]", folder: "tempfile.TemporaryDirectory[str] | None"
 ) -> None:
-    assert process.stdin is not None and process.stdout is not None and process.stderr is not None
+    assert process.stdin is not None and process.stdout is not None
     process.stdin.close()
     seconds = 5
     try:
@@ -155,6 +182,5 @@ def _end(
         process.kill()
         process.wait()
     process.stdout.close()
-    process.stderr.close()
     if folder is not None:
         folder.cleanup()

@@ -1,7 +1,6 @@
 """A scene is put together in Python, or made by a script."""
 
 import ctypes
-import operator
 import os
 import threading
 from collections.abc import Callable, Iterable, Mapping
@@ -294,9 +293,14 @@ class Scene(Handle):
             for entity in given
         ]
         known, self._known = self._known, None
-        if known is None or len(known) > len(wanted) or not all(map(operator.is_, known, wanted)):
+        if known is None:
             library.crt_scene_clear_entities(scene)
             known = []
+        for place in range(len(known) - 1, len(wanted) - 1, -1):
+            library.crt_scene_remove_entity(scene, place)
+        for place, (old, new) in enumerate(zip(known, wanted)):
+            if old is not new:
+                library.crt_scene_replace_entity(scene, place, new)
         for entity in wanted[len(known) :]:
             library.crt_scene_add_entity(scene, entity)
         self._known = wanted
@@ -315,6 +319,13 @@ class Scene(Handle):
 
     def __copy__(self) -> "Scene":
         return self.copy()
+
+    def save_script(self, path: Path) -> None:
+        """Writes the scene as a script, which from_file() reads. Meshes, images and large height
+        fields go into files beside it, whose names begin with its own."""
+        name = os.fsencode(_arguments.text(path, "Scene.save_script: path"))
+        with self._lock:
+            library.crt_scene_save_script(self._update(), name)
 
     def prepare(self, max_primitives: int = 0) -> Prepared:
         """Checks the scene and builds what rays need. Ctrl-C ends it, and comes out of here. A

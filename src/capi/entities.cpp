@@ -9,6 +9,7 @@
 #include "capi/structs.hpp"
 #include "crt/implicit_shapes.hpp"
 #include "crt/primitives.hpp"
+#include "crt/source_code.hpp"
 
 namespace crt::capi {
 
@@ -49,6 +50,18 @@ std::shared_ptr<const HeightGrid> to_height_grid(const double* heights, std::uin
   std::vector<double> copied;
   if (is_fine) copied.assign(heights, heights + count);
   return make_height_grid(std::move(copied), columns, rows);
+}
+
+/// Gives a text as far as it fits, and its whole length.
+void give_text(const std::string& from, const char* argument, char* text, std::size_t capacity,
+               std::size_t* length) {
+  require(length, "length");
+  if (capacity > 0) require(text, argument);
+  *length = from.size();
+  if (capacity == 0) return;
+  const std::size_t fitting = std::min(from.size(), capacity - 1);
+  std::copy_n(from.data(), fitting, text);
+  text[fitting] = 0;
 }
 
 }  // namespace
@@ -235,14 +248,17 @@ int32_t crt_entity_is_solid(const crt_entity* entity) {
 crt_status crt_entity_solid_fault(crt_entity* entity, char* text, size_t capacity, size_t* length) {
   return guarded([&] {
     require(entity, "entity");
-    require(length, "length");
-    if (capacity > 0) require(text, "text");
-    const std::string fault = entity->value.solid_fault();
-    *length = fault.size();
-    if (capacity == 0) return;
-    const std::size_t fitting = std::min(fault.size(), capacity - 1);
-    std::copy_n(fault.data(), fitting, text);
-    text[fitting] = 0;
+    give_text(entity->value.solid_fault(), "text", text, capacity, length);
+  });
+}
+
+crt_status crt_entity_describe(crt_entity* entity, char* json, size_t capacity, size_t* length) {
+  return guarded([&] {
+    require(entity, "entity");
+    crt::Scene scene;
+    scene.entities = {entity->value};
+    give_text(crt::descriptions_to_json(crt::describe_entities(scene)), "json", json, capacity,
+              length);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "capi/structs.hpp"
+#include "crt/source_code.hpp"
 #include "crt/validate.hpp"
 
 namespace crt::capi {
@@ -93,6 +94,24 @@ crt_status crt_scene_set_settings(crt_scene* scene, const crt_settings* settings
   });
 }
 
+crt_status crt_scene_replace_entity(crt_scene* scene, size_t index, crt_entity* entity) {
+  return guarded([&] {
+    require(scene, "scene");
+    require(entity, "entity");
+    require_index(index, scene->value.entities.size());
+    scene->value.entities[index] = entity->value;
+  });
+}
+
+crt_status crt_scene_remove_entity(crt_scene* scene, size_t index) {
+  return guarded([&] {
+    require(scene, "scene");
+    std::vector<crt::Entity>& entities = scene->value.entities;
+    require_index(index, entities.size());
+    entities.erase(entities.begin() + static_cast<std::ptrdiff_t>(index));
+  });
+}
+
 crt_status crt_scene_clear_entities(crt_scene* scene) {
   return guarded([&] {
     require(scene, "scene");
@@ -150,6 +169,14 @@ crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* settings
   return guarded([&] {
     require(scene, "scene");
     fill_in(settings, "settings", to_c(scene->value.settings));
+  });
+}
+
+crt_status crt_scene_save_script(crt_scene* scene, const char* path) {
+  return guarded([&] {
+    require(scene, "scene");
+    require(path, "path");
+    crt::save_script(scene->value, path);
   });
 }
 

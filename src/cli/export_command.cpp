@@ -1,8 +1,9 @@
 // `crt export` writes the scene of a script as source code.
 #include <fmt/format.h>
 
-#include <crt/file.hpp>
 #include <crt/source_code.hpp>
+#include <filesystem>
+#include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/picture_renderer.hpp"
@@ -17,11 +18,13 @@ SourceLanguage language_of(const ExportRequest& request) {
   if (request.language) return *request.language;
   const std::string ending = request.output.extension().string();
   if (ending == ".py") return SourceLanguage::python;
+  if (ending == ".crt") return SourceLanguage::script;
   return ending == ".c" ? SourceLanguage::c : SourceLanguage::cpp;
 }
 
 SourceCode code_of(const Scene& scene, const ExportRequest& request) {
-  const SourceOptions options{.language = language_of(request)};
+  SourceOptions options{.language = language_of(request)};
+  if (request.output.has_stem()) options.name = request.output.stem().string();
   if (!request.entity) return source_code(scene, options);
   const auto place = static_cast<std::size_t>(*request.entity);
   if (place < scene.entities.size()) return source_code(scene.entities[place], options);
@@ -30,17 +33,31 @@ SourceCode code_of(const Scene& scene, const ExportRequest& request) {
                           scene.entities.size()));
 }
 
+void check_output(const ExportRequest& request) {
+  std::error_code failed;
+  if (std::filesystem::equivalent(request.output, request.scene, failed)) {
+    throw Error(ErrorCode::invalid_argument,
+                "the output is the script itself, which would be lost: give it another name");
+  }
+}
+
 void write_code(const ExportRequest& request, Reporter& reporter) {
   const bool to_stream = request.output.empty() || request.output == standard_stream;
+  check_output(request);
   const ScriptResult result = run_scene(ScriptSource(request.scene, request.script.limits),
                                         request.script, !to_stream, reporter);
   if (!result.scene) return;
   const SourceCode code = code_of(*result.scene, request);
   for (const std::string& warning : code.warnings) reporter.warn(warning);
+  if (to_stream && !code.files.empty()) {
+    throw Error(ErrorCode::invalid_argument,
+                "the meshes and images of this scene go into files beside the script: give the "
+                "script a name with -o");
+  }
   if (to_stream) {
     reporter.print(code.text, Reporter::IfClosed::fails);
   } else {
-    write_file(request.output, code.text);
+    write_source_code(code, request.output);
   }
 }
 

@@ -105,13 +105,14 @@ CommandTable new_table(NewRequest& request) {
 CommandTable export_table(ExportRequest& request) {
   CommandTable table{
       .name = "export",
-      .about = "Writes a script's scene as a program in C++, Python or C.",
+      .about = "Writes a script's scene as a program in C++, Python or C, or as a plain script.",
       .footer = R"(The program renders the same picture, byte for byte, to the file that its first
 argument names. What makes the scene is a function in it, make_scene(). It has the numbers that the
-script computes, and no loops or macros. Meshes and images are in it as numbers, up to 16 MiB.
+script computes, and no loops or macros. Meshes and images are in it as numbers, up to 16 MiB. Those
+of a script go into files beside it.
 
 Examples:
-  crt export scene.crt -o scene.cpp         the ending says the language: .cpp, .py or .c
+  crt export scene.crt -o scene.cpp         the ending says the language: .cpp, .py, .c or .crt
   crt export scene.crt --as python          to standard output
   crt export scene.crt --entity 0 --as c    a function that makes the first entity)",
       .rows = {}};
@@ -119,10 +120,10 @@ Examples:
   add_scene_row(rows, request.scene, "the script; - is standard input");
   rows.push_back({.names = "-o,--output",
                   .type = "FILE",
-                  .help = "the program (default: standard output)",
+                  .help = "the program or script (default: standard output)",
                   .take = into_path(request.output)});
   rows.push_back({.names = "--as",
-                  .type = "cpp|python|c",
+                  .type = "cpp|python|c|script",
                   .help = "the language (default: as the ending says, or else cpp)",
                   .take = [&request](const std::string& name) {
                     if (name == "cpp") {
@@ -131,8 +132,10 @@ Examples:
                       request.language = SourceLanguage::python;
                     } else if (name == "c") {
                       request.language = SourceLanguage::c;
+                    } else if (name == "script") {
+                      request.language = SourceLanguage::script;
                     } else {
-                      throw WrongValue("--as", "cpp, python or c", name);
+                      throw WrongValue("--as", "cpp, python, c or script", name);
                     }
                   }});
   rows.push_back({.names = "--entity",

@@ -91,7 +91,30 @@ void add_descriptions(std::vector<EntityDescription>& list, const EntityNode& en
   }
 }
 
+/// Turns a number, a vector or words into JSON. There are no other values.
+std::string json_of(const std::string& value) {
+  if (value.starts_with('(')) return "[" + value.substr(1, value.size() - 2) + "]";
+  const bool is_number = value.find_first_of("0123456789") != std::string::npos;
+  return is_number ? value : '"' + value + '"';
+}
+
 }  // namespace
+
+std::string descriptions_to_json(const std::vector<EntityDescription>& descriptions) {
+  std::string text = "[";
+  for (const EntityDescription& one : descriptions) {
+    const bool is_first = text.size() == 1;
+    const bool is_alone = one.parent == EntityDescription::no_parent;
+    text += fmt::format("{}{{\"kind\":\"{}\",\"parent\":{},\"values\":{{", is_first ? "" : ",",
+                        one.kind, is_alone ? "null" : std::to_string(one.parent));
+    for (const auto& [name, value] : one.values) {
+      const char* const comma = &name == &one.values.front().first ? "" : ",";
+      text += fmt::format("{}\"{}\":{}", comma, name, json_of(value));
+    }
+    text += "}}";
+  }
+  return text + "]";
+}
 
 std::vector<EntityDescription> describe_entities(const Scene& scene, std::size_t most) {
   std::vector<EntityDescription> list;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "source/shapes.hpp"
@@ -110,6 +109,7 @@ std::string EntityWriter::operation(const CsgOperation& operation) {
   const Syntax& syntax = program_.syntax();
   if (operation.parts.empty()) {
     if (syntax.is_c()) return program_.create("entity", "crt_empty_create", {});
+    if (syntax.is_script()) return "Sphere { center -> vec3(0, 0, 0) radius -> 0 }";
     return syntax.is_cpp() ? "empty_entity()" : "crt.Empty()";
   }
   std::vector<std::string> parts;
@@ -119,6 +119,7 @@ std::string EntityWriter::operation(const CsgOperation& operation) {
   if (parts.size() == 2 && !syntax.is_c()) {
     return fmt::format("({} {} {})", parts[0], signs[kind], parts[1]);
   }
+  if (syntax.is_script()) return chain(parts, signs[kind]);
   const std::string first = parts.front();
   if (is_difference) parts.erase(parts.begin());
   if (syntax.is_c()) {
@@ -133,6 +134,16 @@ std::string EntityWriter::operation(const CsgOperation& operation) {
                      is_difference ? first + ", " : "", list);
 }
 
+/// Combines parts one by one. A difference takes them away in their order, too.
+std::string EntityWriter::chain(const std::vector<std::string>& parts, const char* sign) {
+  std::string text = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (text.size() > most_inline) text = program_.define("entity", "Entity", text);
+    text = fmt::format("({} {} {})", text, sign, parts[i]);
+  }
+  return text;
+}
+
 std::string EntityWriter::wrapper(const EntityWrapper& wrapper) {
   std::string text = written_.at(wrapper.child.get());
   if (wrapper.to_parent) text = placed(std::move(text), *wrapper.to_parent);
@@ -141,13 +152,14 @@ std::string EntityWriter::wrapper(const EntityWrapper& wrapper) {
   const std::string id = std::to_string(*wrapper.id);
   if (program_.syntax().is_c())
     return program_.create("entity", "crt_entity_with_id", {text, id + "U"});
+  if (program_.syntax().is_script()) return modified(text, "id", id);
   return called(text, fmt::format("with_id({})", id));
 }
 
 std::string EntityWriter::placed(std::string entity, const core::TransformChain& chain) {
   for (const core::TransformChain* map : maps_of(chain)) {
-    if (!map->is_plain() && !std::exchange(has_warned_, true)) {
-      program_.warn(
+    if (!map->is_plain()) {
+      program_.warn_once(
           "transforms that are nested, and together are more than doubles can say, are "
           "rounded: single pixels may differ");
     }
@@ -172,15 +184,17 @@ std::string EntityWriter::placed_by(const std::string& entity, const Transform& 
   const bool moves = map == Transform{.translation = t};
   if (moves || is_diagonal(map)) {
     const std::string vector = syntax.vector(moves ? t : Vec3(x.x, y.y, z.z));
+    if (syntax.is_script()) return modified(entity, moves ? "translate" : "scale", vector);
     if (syntax.is_python())
       return called(entity, fmt::format("{}({})", moves ? "moved" : "scaled", vector));
     return called(entity, fmt::format("transformed({}({}))", moves ? "translate" : "scale",
                                       moves ? vector : "Vec3" + vector));
   }
-  if (syntax.is_python()) {
+  if (syntax.is_python() || syntax.is_script()) {
     std::vector<std::string> lists;
     lists.reserve(rows.size());
     for (const auto& row : rows) lists.push_back(syntax.list(number_items(row)));
+    if (syntax.is_script()) return modified(entity, "matrix", syntax.list(lists));
     return called(entity, "transformed(" + syntax.list(lists) + ")");
   }
   return called(
@@ -193,7 +207,16 @@ std::string EntityWriter::with_material(const std::string& entity, const SharedM
   const std::string name = material_name(program_, material);
   if (program_.syntax().is_c())
     return program_.create("entity", "crt_entity_with_material", {entity, "&" + name});
+  if (program_.syntax().is_script()) return modified(entity, "material", name);
   return called(entity, fmt::format("with_material({})", name));
+}
+
+/// Puts a modifier behind an entity.
+std::string EntityWriter::modified(const std::string& entity, std::string_view modifier,
+                                   const std::string& operand) const {
+  if (modifier == "material" || modifier == "id" || modifier == "matrix")
+    program_.refuse_in_2015(fmt::format("'<{} ...>'", modifier));
+  return fmt::format("{} <{} {}>", entity, modifier, operand);
 }
 
 /// Calls a member of an entity. In C++ a primitive has none.

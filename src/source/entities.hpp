@@ -4,6 +4,8 @@
 
 #include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/csg/entity_node.hpp"
 #include "source/program.hpp"
@@ -24,16 +26,18 @@ class EntityWriter {
  private:
   std::string value(const EntityNode& node);
   std::string operation(const CsgOperation& operation);
+  std::string chain(const std::vector<std::string>& parts, const char* sign);
   std::string wrapper(const EntityWrapper& wrapper);
   std::string placed(std::string entity, const core::TransformChain& chain);
   std::string placed_by(const std::string& entity, const Transform& map);
   std::string with_material(const std::string& entity, const SharedMaterial& material);
+  std::string modified(const std::string& entity, std::string_view modifier,
+                       const std::string& operand) const;
   std::string called(const std::string& entity, const std::string& call) const;
 
   Program& program_;
   std::map<const EntityNode*, int> uses_;
   std::map<const EntityNode*, std::string> written_;
-  bool has_warned_ = false;
 };
 
 }  // namespace crt::source

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <limits>
 #include <map>
 
 #include "core/geometry/implicit/field_node.hpp"
@@ -13,10 +15,22 @@ namespace {
 using core::FieldNode;
 using core::FieldOperation;
 
-/// A FieldWriter writes each node once, however often it occurs.
+/// A FieldWriter writes each node once, however often it occurs. It may name what is long, by
+/// statements of a macro, so that no expression has many brackets within one another.
 class FieldWriter {
  public:
-  explicit FieldWriter(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  FieldWriter(std::size_t most_bytes, bool names_parts)
+      : most_bytes_(most_bytes), names_parts_(names_parts) {}
+
+  /// Returns the statements that name parts, and the coordinates among the operands: "x, z".
+  const std::string& statements() const { return statements_; }
+  std::string coordinates() const {
+    std::vector<std::string> names;
+    for (std::size_t axis = 0; axis < uses_.size(); ++axis) {
+      if (uses_[axis]) names.emplace_back(1, "xyz"[axis]);
+    }
+    return joined("", names, "");
+  }
 
   const std::string& text(const FieldNode& node) {
     const auto found = texts_.find(&node);
@@ -25,6 +39,11 @@ class FieldWriter {
     if (text.size() > most_bytes_) {
       throw Error(ErrorCode::limit,
                   fmt::format("a field would be longer than {} bytes", most_bytes_));
+    }
+    if (names_parts_ && text.size() > most_inline) {
+      const std::string name = fmt::format("part_{}", ++parts_);
+      statements_ += fmt::format("    {} = {}\n", name, text);
+      text = name;
     }
     return texts_[&node] = std::move(text);
   }
@@ -35,11 +54,11 @@ class FieldWriter {
       case FieldOperation::constant:
         return number(node.number);
       case FieldOperation::x:
-        return "x";
+        return coordinate(0);
       case FieldOperation::y:
-        return "y";
+        return coordinate(1);
       case FieldOperation::z:
-        return "z";
+        return coordinate(2);
       case FieldOperation::negate:
         return fmt::format("(-{})", text(*node.a));
       case FieldOperation::add:
@@ -54,7 +73,7 @@ class FieldWriter {
         return fmt::format("({} ** 2)", text(*node.a));
       case FieldOperation::whole_power:
       case FieldOperation::power:
-        return fmt::format("({} ** {})", text(*node.a), number(node.number));
+        return fmt::format("({} ** {})", text(*node.a), Syntax::number(node.number));
       default:
         return function(node);
     }
@@ -105,24 +124,54 @@ class FieldWriter {
     }
   }
 
+  std::string coordinate(std::size_t axis) {
+    uses_[axis] = true;
+    return {"xyz"[axis]};
+  }
+
+  /// Returns a Float. Whole numbers would be divided as such.
   static std::string number(double value) {
-    return value < 0 ? fmt::format("({})", value) : Syntax::number(value);
+    std::string text = Syntax::number(value);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text.front() == '-' ? "(" + text + ")" : text;
   }
 
   std::string binary(const FieldNode& node, const char* sign) {
     return fmt::format("({} {} {})", text(*node.a), sign, text(*node.b));
   }
 
+  static constexpr std::size_t most_inline = 80;
+
   std::size_t most_bytes_;
+  bool names_parts_;
   std::map<const FieldNode*, std::string> texts_;
+  std::array<bool, 3> uses_{};
+  int parts_ = 0;
+  std::string statements_;
 };
+
+std::string without_brackets(const std::string& text) {
+  const bool is_in_brackets = text.size() > 2 && text.front() == '(' && text.back() == ')';
+  return is_in_brackets ? text.substr(1, text.size() - 2) : text;
+}
 
 }  // namespace
 
 std::string field_text(const Field& field, std::size_t most_bytes) {
-  std::string text = FieldWriter(most_bytes).text(field.node());
-  const bool is_in_brackets = text.size() > 2 && text.front() == '(' && text.back() == ')';
-  return is_in_brackets ? text.substr(1, text.size() - 2) : text;
+  return without_brackets(FieldWriter(most_bytes, false).text(field.node()));
+}
+
+std::string field_value(Program& program, const Field& field) {
+  if (std::string known = program.known(&field.node()); !known.empty()) return known;
+  FieldWriter writer(std::numeric_limits<std::size_t>::max(), true);
+  const std::string text = writer.text(field.node());
+  if (writer.statements().empty()) return without_brackets(text);
+  program.refuse_in_2015("macros that return a value");
+  const std::string name = program.new_name("field");
+  const std::string coordinates = writer.coordinates();
+  program.add_block(fmt::format("{} = Macro ({}) {{\n{}    return {}\n}}\n", name, coordinates,
+                                writer.statements(), text));
+  return program.remember(&field.node(), fmt::format("{}({})", name, coordinates));
 }
 
 }  // namespace crt::source

@@ -16,8 +16,13 @@ struct StructField {
   std::variant<std::string, Vec3> value;
 };
 
+/// Returns what a script calls a field of C++: "cornerA" for "corner_a", "bumpheight" for
+/// "bump_height".
+std::string script_name(const std::string& cpp);
+
 /// Fields are those of one struct in the language that is written. Each is named as C++ has it and
-/// as C and Python have it. An empty name says that there is no such field.
+/// as C and Python have it. An empty name says that there is no such field. Scripts have the fields
+/// of C++.
 class Fields {
  public:
   explicit Fields(const Syntax& syntax) : syntax_(syntax) {}
@@ -38,13 +43,20 @@ class Fields {
     }
   }
 
-  const std::vector<StructField>& all() const { return fields_; }
+  /// Returns the default of a field. In scripts, which must have this field, no value equals it.
+  double required(double usual) const;
+  Vec3 required(const Vec3& usual) const;
+  Color required(const Color& usual) const;
 
-  /// Returns "Name{.field = value}" or "crt.Name(field=value)".
+  const std::vector<StructField>& all() const { return fields_; }
+  /// Returns "name -> value", "name=value" or ".name = value" for each field.
+  std::vector<std::string> assignments() const;
+
+  /// Returns "Name{.field = value}", "crt.Name(field=value)" or "Name { field -> value }".
   std::string constructed(const std::string& name) const;
 
  private:
-  const char* name_of(const char* cpp, const char* c) const { return syntax_.is_cpp() ? cpp : c; }
+  std::string name_of(const char* cpp, const char* c) const;
 
   Syntax syntax_;
   std::vector<StructField> fields_;

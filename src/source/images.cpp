@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/height_field/grid.hpp"
 #include "crt/error.hpp"
 #include "source/values.hpp"
 
@@ -9,13 +10,16 @@ namespace crt::source {
 
 namespace {
 
+const char* ending_of(const Image& image) {
+  return image.display_encoded() ? "png" : "exr";
+}
+
 /// Returns a file with all that a scene uses of an image.
 std::vector<std::byte> file_of(const Image& image) {
   Image plain(image.width(), image.height());
   std::copy(image.pixels().begin(), image.pixels().end(), plain.pixels().begin());
   plain.set_display_encoded(image.display_encoded());
-  std::vector<std::byte> file =
-      plain.encode(image.display_encoded() ? "png" : "exr", {.reproducible = true});
+  std::vector<std::byte> file = plain.encode(ending_of(image), {.reproducible = true});
   const Image again = Image::decode(file, "image");
   const bool is_same =
       again.display_encoded() == image.display_encoded() && again.width() == image.width() &&
@@ -43,12 +47,37 @@ std::string python_bytes(const std::vector<std::byte>& file) {
 
 }  // namespace
 
+std::string image_file_name(Program& program, const Image& image) {
+  return program.add_file(file_of(image), ending_of(image));
+}
+
+std::optional<std::string> heights_file_name(Program& program, const HeightGrid& grid) {
+  constexpr std::uint32_t most_in_text = 4096;
+  const std::uint32_t columns = grid.columns();
+  if (std::uint64_t{columns} * grid.rows() <= most_in_text) return std::nullopt;
+  Image image(static_cast<int>(columns), static_cast<int>(grid.rows()));
+  for (std::uint32_t row = 0; row < grid.rows(); ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const double height = grid.height(column, row);
+      if (double{static_cast<float>(height)} != height) return std::nullopt;
+      // The first row of an image is at the upper z.
+      image.set(static_cast<int>(column), static_cast<int>(grid.rows() - 1 - row),
+                {height, height, height, 1});
+    }
+  }
+  return program.add_file(image.encode("exr", {.reproducible = true}), "exr");
+}
+
 std::string image_name(Program& program, const std::shared_ptr<const Image>& image) {
   if (std::string known = program.known(image.get()); !known.empty()) return known;
-  const std::vector<std::byte> file = file_of(*image);
-  program.require_space(file.size());
   const Syntax& syntax = program.syntax();
   std::string name;
+  if (syntax.is_script()) {
+    name = syntax.text(image_file_name(program, *image));
+    return program.remember(image.get(), name);
+  }
+  const std::vector<std::byte> file = file_of(*image);
+  program.require_space(file.size());
   if (syntax.is_python()) {
     name = program.define("image", "", fmt::format("crt.Image.decode({})", python_bytes(file)));
     return program.remember(image.get(), name);

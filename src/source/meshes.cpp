@@ -8,7 +8,7 @@
 #include "core/geometry/mesh/facet_attributes.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 #include "crt/error.hpp"
-#include "crt/mesh.hpp"
+#include "source/mesh_parts.hpp"
 #include "source/shapes.hpp"
 #include "source/values.hpp"
 
@@ -17,13 +17,6 @@ namespace crt::source {
 namespace {
 
 using core::FacetAttributes;
-
-/// MeshParts are what a mesh can be made of again.
-struct MeshParts {
-  std::vector<Vec3> positions;
-  std::vector<TriangleIndices> triangles;
-  MeshAttributes attributes;
-};
 
 /// Returns a vector whose direction rounds to the floats that are given. They are those of a unit
 /// vector, each rounded. Of all ways back to unit length, the one that uses the same share of every
@@ -203,13 +196,19 @@ class MeshWriter {
 std::string mesh_value(Program& program, const Mesh& mesh) {
   std::string name = program.known(mesh.triangles.get());
   if (name.empty()) {
-    program.require_space(std::size_t{3} * mesh.triangles->size());
+    const bool is_script = program.syntax().is_script();
+    if (!is_script) program.require_space(std::size_t{3} * mesh.triangles->size());
     const MeshParts parts = parts_of(*mesh.triangles);
     check_parts(parts, *mesh.triangles);
-    name = program.remember(mesh.triangles.get(), MeshWriter(program, parts).write());
+    name = program.remember(mesh.triangles.get(), is_script ? obj_file_name(program, parts)
+                                                            : MeshWriter(program, parts).write());
   }
   if (program.syntax().is_c()) return name;
   const std::string material = mesh.material ? material_name(program, *mesh.material) : "";
+  if (program.syntax().is_script()) {
+    return material.empty() ? fmt::format("Mesh {{ file -> {} }}", name)
+                            : fmt::format("Mesh {{ file -> {} material -> {} }}", name, material);
+  }
   if (program.syntax().is_python())
     return material.empty() ? name : fmt::format("{}.with_material({})", name, material);
   return material.empty() ? fmt::format("Mesh{{.triangles = {}}}", name)

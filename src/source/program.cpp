@@ -2,9 +2,49 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/sha256.hpp"
 #include "crt/error.hpp"
 
 namespace crt::source {
+
+namespace {
+
+constexpr double a_degree = std::numbers::pi / 180;
+
+/// Returns degrees that are as many radians, to the last bit where there are such.
+double degrees_of(double radians) {
+  constexpr int most_steps = 4;
+  const double nearest = radians / a_degree;
+  double above = nearest;
+  double below = nearest;
+  for (int step = 0; step < most_steps; ++step) {
+    if (above * a_degree == radians) return above;
+    if (below * a_degree == radians) return below;
+    above = std::nextafter(above, 2 * nearest);
+    below = std::nextafter(below, 0);
+  }
+  return nearest;
+}
+
+/// Returns what the name of a file may begin with anywhere, also in an OBJ file.
+std::string plain_name(const std::string& name) {
+  constexpr std::size_t most_bytes = 100;
+  std::string result = name.substr(0, most_bytes);
+  for (char& c : result) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+    if (!is_plain) c = '_';
+  }
+  if (result.empty() || std::isalnum(static_cast<unsigned char>(result[0])) == 0)
+    result.insert(0, "_");
+  return result;
+}
+
+}  // namespace
 
 void Program::require_space(std::size_t numbers) const {
   constexpr std::size_t least_bytes = 2;  // a digit and a comma
@@ -28,10 +68,24 @@ std::string Program::new_name(const std::string& kind) {
 }
 
 void Program::add_line(const std::string& line) {
-  const std::size_t indent = syntax_.is_python() ? 4 : 2;
-  const std::string text = wrapped(std::string(indent, ' ') + line, 2 * indent + 2) + "\n";
-  grow(text.size());
-  lines_ += text;
+  const std::size_t indent = syntax_.is_script() ? 0 : syntax_.is_python() ? 4 : 2;
+  add_block(wrapped(std::string(indent, ' ') + line, syntax_.is_script() ? 4 : 2 * indent + 2) +
+            "\n");
+}
+
+void Program::add_block(const std::string& lines) {
+  grow(lines.size());
+  lines_ += lines;
+}
+
+std::string Program::add_file(std::span<const std::byte> content, const std::string& ending) {
+  constexpr std::size_t digits = 16;
+  std::string name =
+      fmt::format("{}-{}.{}", plain_name(name_), core::sha256(content).substr(0, digits), ending);
+  const bool is_known = std::any_of(files_.begin(), files_.end(),
+                                    [&](const SourceFile& file) { return file.name == name; });
+  if (!is_known) files_.push_back({name, {content.begin(), content.end()}});
+  return name;
 }
 
 std::string Program::define(const std::string& kind, const std::string& type,
@@ -73,7 +127,7 @@ std::string Program::structure(const std::string& kind, const std::string& name,
 
 std::string Program::array(const std::string& kind, const std::string& type,
                            std::span<const std::string> items) {
-  if (syntax_.is_python()) return define(kind, "", syntax_.list(items));
+  if (syntax_.is_python() || syntax_.is_script()) return define(kind, "", syntax_.list(items));
   std::string name = new_name(kind);
   const std::string text =
       wrapped(joined(fmt::format("static const {} {}[] = {{", type, name), items, "};\n"), 4);
@@ -87,6 +141,31 @@ std::string Program::local_array(const std::string& kind, const std::string& typ
   std::string name = new_name(kind);
   add_line(joined(fmt::format("{} {}[] = {{", type, name), items, "};"));
   return name;
+}
+
+std::string Program::degrees(double radians) {
+  const double result = degrees_of(radians);
+  if (result * a_degree != radians) {
+    warn_once("an angle is rounded, as it is written in degrees: single pixels may differ");
+  }
+  return Syntax::number(result);
+}
+
+std::string Program::angle(double radians) {
+  return syntax_.is_script() ? degrees(radians) : Syntax::number(radians);
+}
+
+void Program::warn_once(const std::string& warning) {
+  if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
+    warnings_.push_back(warning);
+}
+
+void Program::refuse_in_2015(const std::string& what) const {
+  if (!is_of_2015_) return;
+  throw Error(ErrorCode::unsupported,
+              fmt::format("scripts of 2015 have no {}, so that this scene of theirs cannot be "
+                          "written as one",
+                          what));
 }
 
 std::string Program::known(const void* thing) const {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/geometry/height_field/grid.hpp"
 #include "core/geometry/profile/profile.hpp"
@@ -124,7 +122,9 @@ std::string contour_list(const Syntax& syntax, const Contour& contour) {
   for (const auto& [x, y, bulge] : contour) {
     const std::string numbers =
         bulge == 0 ? fmt::format("{}, {}", x, y) : fmt::format("{}, {}, {}", x, y, bulge);
-    corners.push_back(syntax.is_python() ? "(" + numbers + ")" : "{" + numbers + "}");
+    corners.push_back(syntax.is_script()   ? "[" + numbers + "]"
+                      : syntax.is_python() ? "(" + numbers + ")"
+                                           : "{" + numbers + "}");
   }
   return syntax.list(corners);
 }
@@ -164,19 +164,20 @@ std::string heights_name(Program& program, const std::shared_ptr<const HeightGri
   if (std::string known = program.known(grid.get()); !known.empty()) return known;
   const Syntax& syntax = program.syntax();
   program.require_space(std::size_t{grid->columns()} * grid->rows());
+  const bool has_rows = syntax.is_python() || syntax.is_script();
   std::vector<std::string> rows;
   std::vector<std::string> all;
   for (std::uint32_t row = 0; row < grid->rows(); ++row) {
     const auto items =
         number_items(std::span(grid->heights_from(0, row), std::size_t{grid->columns()}));
-    if (syntax.is_python()) {
+    if (has_rows) {
       rows.push_back(syntax.list(items));
     } else {
       all.insert(all.end(), items.begin(), items.end());
     }
   }
-  std::string name = syntax.is_python() ? program.define("heights", "", syntax.list(rows))
-                                        : program.array("heights", "double", all);
+  std::string name = has_rows ? program.define("heights", "", syntax.list(rows))
+                              : program.array("heights", "double", all);
   if (syntax.is_cpp()) {
     name =
         program.define("height_grid", "auto",
@@ -197,6 +198,10 @@ SharedPart shared_part(Program& program, const Revolution& it) {
   return {"profile", {profile_name(program, it.profile)}};
 }
 SharedPart shared_part(Program& program, const HeightField& it) {
+  if (program.syntax().is_script()) {
+    if (const auto file = heights_file_name(program, *it.heights))
+      return {"image", {program.syntax().text(*file)}};
+  }
   SharedPart part{"heights", {heights_name(program, it.heights)}};
   if (program.syntax().is_c()) {
     part.values.push_back(std::to_string(it.heights->columns()));
@@ -205,6 +210,7 @@ SharedPart shared_part(Program& program, const HeightField& it) {
   return part;
 }
 SharedPart shared_part(Program& program, const Implicit& it) {
+  if (program.syntax().is_script()) return {"field", {field_value(program, it.field)}};
   constexpr std::size_t most_bytes = std::size_t{1} << 20;
   const std::string content = field_text(it.field, most_bytes);
   const std::string text = program.syntax().text(content);
@@ -219,25 +225,10 @@ SharedPart shared_part(Program&, const Custom& it) {
                           it.shape->name()));
 }
 
-/// Returns degrees that are as many radians, to the last bit where there are such.
-double degrees_of(double radians) {
-  constexpr double a_degree = std::numbers::pi / 180;
-  constexpr int most_steps = 4;
-  const double nearest = radians / a_degree;
-  double above = nearest;
-  double below = nearest;
-  for (int step = 0; step < most_steps; ++step) {
-    if (above * a_degree == radians) return above;
-    if (below * a_degree == radians) return below;
-    above = std::nextafter(above, 2 * nearest);
-    below = std::nextafter(below, 0);
-  }
-  return nearest;
-}
-
-std::string value_text(const Syntax& syntax, const Argument& argument) {
-  if (argument.is_angle && syntax.is_python())
-    return Syntax::number(degrees_of(std::get<double>(argument.value)));
+std::string value_text(Program& program, const Argument& argument) {
+  const Syntax& syntax = program.syntax();
+  if (argument.is_angle && (syntax.is_python() || syntax.is_script()))
+    return program.degrees(std::get<double>(argument.value));
   if (const auto* number = std::get_if<double>(&argument.value)) return Syntax::number(*number);
   return syntax.vector(std::get<Vec3>(argument.value));
 }
@@ -245,9 +236,26 @@ std::string value_text(const Syntax& syntax, const Argument& argument) {
 std::string c_value(Program& program, const ShapeCode& code, SharedPart part) {
   std::vector<std::string> arguments = std::move(part.values);
   for (const Argument& argument : code.arguments) {
-    if (*argument.python != '\0') arguments.push_back(value_text(program.syntax(), argument));
+    if (*argument.python != '\0') arguments.push_back(value_text(program, argument));
   }
   return program.create("entity", fmt::format("crt_{}_create", code.c), std::move(arguments));
+}
+
+/// Returns an extrusion as scripts have it, which begins at z = 0.
+std::string script_value(Program& program, const Extrusion& extrusion) {
+  const double low = std::min(extrusion.from, extrusion.to);
+  const double high = std::max(extrusion.from, extrusion.to);
+  const bool is_at_origin = low == 0 || high == 0;
+  Fields fields(program.syntax());
+  fields.add_text("profile", "", profile_name(program, extrusion.profile));
+  fields.add_text("height", "", Syntax::number(is_at_origin ? low + high : high - low));
+  if (extrusion.material)
+    fields.add_text("material", "", material_name(program, *extrusion.material));
+  const std::string text = fields.constructed("Extrusion");
+  if (is_at_origin) return text;
+  program.warn_once(
+      "an extrusion that does not begin at z = 0 is moved there: single pixels may differ");
+  return fmt::format("{} <translate {}>", text, program.syntax().vector({0, 0, low}));
 }
 
 }  // namespace
@@ -264,24 +272,20 @@ const std::optional<SharedMaterial>& material_of(const Primitive& primitive) {
 
 std::string shape_value(Program& program, const Primitive& primitive) {
   if (const auto* mesh = std::get_if<Mesh>(&primitive)) return mesh_value(program, *mesh);
+  const Syntax& syntax = program.syntax();
+  if (const auto* extrusion = std::get_if<Extrusion>(&primitive); extrusion && syntax.is_script())
+    return script_value(program, *extrusion);
   const ShapeCode code = shape_code(primitive);
   const SharedPart part =
       std::visit([&](const auto& shape) { return shared_part(program, shape); }, primitive);
-  const Syntax& syntax = program.syntax();
   if (syntax.is_c()) return c_value(program, code, part);
-  std::vector<std::string> items;
-  const auto add = [&](const char* name, const std::string& value) {
-    if (*name == '\0') return;
-    items.push_back(syntax.is_cpp() ? fmt::format(".{} = {}", name, value)
-                                    : fmt::format("{}={}", name, value));
-  };
-  if (!part.values.empty()) add(part.name, part.values.front());
+  Fields fields(syntax);
+  if (!part.values.empty()) fields.add_text(part.name, part.name, part.values.front());
   for (const Argument& argument : code.arguments)
-    add(syntax.is_cpp() ? argument.cpp : argument.python, value_text(syntax, argument));
+    fields.add_text(argument.cpp, argument.python, value_text(program, argument));
   if (const auto& material = material_of(primitive))
-    add("material", material_name(program, *material));
-  return syntax.is_cpp() ? joined(fmt::format("{}{{", code.name), items, "}")
-                         : joined(fmt::format("crt.{}(", code.name), items, ")");
+    fields.add_text("material", "material", material_name(program, *material));
+  return fields.constructed(code.name);
 }
 
 }  // namespace crt::source

@@ -41,6 +41,9 @@ const std::optional<SharedMaterial>& material_of(const Primitive& primitive);
 /// so many bytes.
 std::string field_text(const Field& field, std::size_t most_bytes);
 
+/// Returns a field as scripts have it: an expression, or a call of a macro that is written before.
+std::string field_value(Program& program, const Field& field);
+
 /// Returns what makes a mesh, without its material.
 std::string mesh_value(Program& program, const Mesh& mesh);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "crt/file.hpp"
 #include "source/entities.hpp"
 #include "source/templates.hpp"
 #include "source/values.hpp"
@@ -21,7 +22,20 @@ struct Function {
   std::string result;
 };
 
+/// Puts blanks before each line.
+std::string indented(const std::string& lines) {
+  std::string result;
+  bool begins = true;
+  for (const char c : lines) {
+    if (begins && c != '\n') result += "    ";
+    begins = c == '\n';
+    result += c;
+  }
+  return result;
+}
+
 std::string begin_of(const Syntax& syntax, const Program& program, bool is_alone) {
+  if (syntax.is_script()) return "";
   if (syntax.is_cpp()) return source::cpp_begin;
   if (syntax.is_python()) return is_alone ? "import crt\n\n\n" : source::python_begin;
   const bool sets = program.lines().find("  set(") != std::string::npos;
@@ -30,6 +44,10 @@ std::string begin_of(const Syntax& syntax, const Program& program, bool is_alone
 
 std::string function_text(const Program& program, const Function& function) {
   const Syntax& syntax = program.syntax();
+  if (syntax.is_script()) {
+    return fmt::format("{} = Macro () {{\n{}    return {}\n}}\n", function.name,
+                       indented(program.lines()), function.result);
+  }
   const std::string arrays = program.arrays().empty() ? std::string() : program.arrays() + "\n";
   if (syntax.is_python()) {
     return fmt::format("def {}():\n{}    return {}\n", function.name, program.lines(),
@@ -79,7 +97,30 @@ void write_scene(Program& program, const Scene& scene) {
   }
   set_in_scene(program, "camera", source::camera_value(program, scene.camera));
   set_in_scene(program, "background", source::background_value(program, scene.background));
-  set_in_scene(program, "settings", source::settings_value(program, scene.settings));
+  set_in_scene(
+      program, "settings",
+      program.structure("settings", "Settings", source::settings_fields(program, scene.settings)));
+}
+
+/// Writes the statements of a script: what is made, then Settings and Scene.
+void write_script(Program& program, const Scene& scene) {
+  if (scene.settings.compat != 0) program.set_is_of_2015();
+  EntityWriter writer(program);
+  for (const Entity& entity : scene.entities) writer.count(entity);
+  std::string entities;
+  for (const Entity& entity : scene.entities) entities += writer.write(entity) + "\n";
+  source::Fields fields = source::settings_fields(program, scene.settings);
+  source::add_projection(fields, scene.camera);
+  fields.add_text("camera", "", source::camera_value(program, scene.camera));
+  std::string lights;
+  for (const Light& light : scene.lights)
+    lights += (lights.empty() ? "\n        " : ",\n        ") + source::light_value(program, light);
+  if (!lights.empty()) fields.add_text("lights", "", "[" + lights + "\n    ]");
+  fields.add_text("background", "", source::background_value(program, scene.background));
+  std::string settings;
+  for (const std::string& setting : fields.assignments()) settings += "    " + setting + "\n";
+  program.add_block("\nSettings {\n" + source::wrapped(settings, 12) + "}\n");
+  program.add_block("\nScene {\n" + source::wrapped(indented(entities), 8) + "}\n");
 }
 
 const char* main_of(const Syntax& syntax) {
@@ -92,11 +133,16 @@ const char* main_of(const Syntax& syntax) {
 
 SourceCode source_code(const Scene& scene, const SourceOptions& options) {
   Program program(options);
+  if (program.syntax().is_script()) {
+    write_script(program, scene);
+    return {program.lines(), program.warnings(), program.files()};
+  }
   write_scene(program, scene);
   const Syntax& syntax = program.syntax();
   const Function function{syntax.is_c() ? "crt_scene" : "Scene", "make_scene", "scene"};
   return {begin_of(syntax, program, false) + function_text(program, function) + main_of(syntax),
-          program.warnings()};
+          program.warnings(),
+          {}};
 }
 
 SourceCode source_code(const Entity& entity, const SourceOptions& options) {
@@ -106,7 +152,23 @@ SourceCode source_code(const Entity& entity, const SourceOptions& options) {
   const std::string result = writer.write(entity);
   const Syntax& syntax = program.syntax();
   const Function function{syntax.is_c() ? "crt_entity" : "Entity", "make_entity", result};
-  return {begin_of(syntax, program, true) + function_text(program, function), program.warnings()};
+  return {begin_of(syntax, program, true) + function_text(program, function), program.warnings(),
+          program.files()};
+}
+
+void write_source_code(const SourceCode& code, const std::filesystem::path& path) {
+  for (const SourceFile& file : code.files)
+    write_file(path.parent_path() / file.name, std::span<const std::byte>(file.content));
+  write_file(path, code.text);
+}
+
+std::vector<std::string> save_script(const Scene& scene, const std::filesystem::path& path) {
+  constexpr std::size_t most_bytes = std::size_t{64} << 20;
+  const SourceCode code = source_code(
+      scene,
+      {.language = SourceLanguage::script, .most_bytes = most_bytes, .name = path.stem().string()});
+  write_source_code(code, path);
+  return code.warnings;
 }
 
 }  // namespace crt

@@ -3,8 +3,46 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cmath>
+
+#include "crt/error.hpp"
 
 namespace crt::source {
+
+namespace {
+
+/// Says whether a text begins with the name of an attribute and its arrow: "radius -> 1".
+bool begins_attribute(std::string_view text) {
+  std::size_t end = 0;
+  while (end < text.size() && std::isalnum(static_cast<unsigned char>(text[end])) != 0) ++end;
+  return end > 0 && text.substr(end).starts_with(" -> ");
+}
+
+/// Returns how many bytes a character of UTF-8 has that begins with this one, or 0 (RFC 3629).
+std::size_t bytes_of_character(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first < 0xc2 || first > 0xf4) return 0;
+  return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+}
+
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t count = bytes_of_character(static_cast<unsigned char>(text[i]));
+    if (count == 0 || i + count > text.size()) return false;
+    for (std::size_t k = 1; k < count; ++k) {
+      if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return false;
+    }
+    i += count;
+  }
+  return true;
+}
+
+/// Says whether a bracket opens a vector or a colour of a script.
+bool opens_vector(std::string_view text) {
+  return text.ends_with("vec3(") || text.ends_with("rgb(") || text.ends_with("rgba(");
+}
+
+}  // namespace
 
 std::string joined(std::string begin, std::span<const std::string> items, std::string_view end) {
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -20,6 +58,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   std::size_t place = std::string::npos;  // where it may be broken
   bool is_quoted = false;
   bool is_escaped = false;
+  bool is_in_vector = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == '"' && !is_escaped) is_quoted = !is_quoted;
@@ -29,10 +68,13 @@ std::string wrapped(std::string_view text, std::size_t indent) {
       line = place + 1;
       place = std::string::npos;
     }
+    if (c == ')' || opens_vector(text.substr(0, i + 1))) is_in_vector = c == '(';
     if (c == '\n') {
       line = result.size() + 1;
       place = std::string::npos;
-    } else if (c == ' ' && !is_quoted && i > 0 && text[i - 1] == ',') {
+    } else if (c == ' ' && !is_quoted && !is_in_vector && i > 0 &&
+               (text[i - 1] == ',' ||
+                (text[i - 1] != ' ' && begins_attribute(text.substr(i + 1))))) {
       place = result.size();
     }
     result += c;
@@ -41,16 +83,38 @@ std::string wrapped(std::string_view text, std::size_t indent) {
 }
 
 std::string Syntax::number(double number) {
+  if (number == 0 && std::signbit(number)) return "-0.0";  // a whole number has no sign at 0
   return fmt::format("{}", number);
 }
 
 std::string Syntax::boolean(bool value) const {
-  if (is_cpp()) return value ? "true" : "false";
+  if (is_cpp() || is_script()) return value ? "true" : "false";
   if (is_python()) return value ? "True" : "False";
   return value ? "1" : "0";
 }
 
+std::string Syntax::script_text(const std::string& content) const {
+  if (!is_utf8(content))
+    throw Error(ErrorCode::unsupported, "a text is not UTF-8, which scripts are written in");
+  std::string result = "\"";
+  for (const char c : content) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (c == '\n') {
+      result += "\\n";
+    } else if (byte < ' ' || byte == 0x7f) {
+      result += fmt::format("\\u{:04x}", byte);
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
 std::string Syntax::text(const std::string& content) const {
+  if (is_script()) return script_text(content);
   constexpr std::size_t most_in_a_piece = 72;
   std::string result = "\"";
   std::size_t piece = 0;
@@ -79,14 +143,32 @@ std::string Syntax::text(const std::string& content) const {
 }
 
 std::string Syntax::vector(const Vec3& v) const {
-  const std::string numbers = fmt::format("{}, {}, {}", v.x, v.y, v.z);
+  const std::string numbers = fmt::format("{}, {}, {}", number(v.x), number(v.y), number(v.z));
   if (is_cpp()) return "{" + numbers + "}";
   if (is_python()) return "(" + numbers + ")";
+  if (is_script()) return "vec3(" + numbers + ")";
   return "(const double[]){" + numbers + "}";
 }
 
+std::string Syntax::color(const Color& color) const {
+  const std::string numbers =
+      fmt::format("{}, {}, {}", number(color.r), number(color.g), number(color.b));
+  if (color.a == 1)
+    return fmt::format(fmt::runtime(is_script() ? "rgb({})" : "Color{{{}}}"), numbers);
+  return fmt::format(fmt::runtime(is_script() ? "rgba({}, {})" : "Color{{{}, {}}}"), numbers,
+                     number(color.a));
+}
+
 std::string Syntax::list(std::span<const std::string> items) const {
-  return is_python() ? joined("[", items, "]") : joined("{", items, "}");
+  return is_python() || is_script() ? joined("[", items, "]") : joined("{", items, "}");
+}
+
+std::string Syntax::constructed(const std::string& name, std::span<const std::string> items) const {
+  if (is_python()) return joined(fmt::format("crt.{}(", name), items, ")");
+  if (!is_script()) return joined(name + "{", items, "}");
+  std::string text = name + " { ";
+  for (const std::string& item : items) text += item + " ";
+  return text + "}";
 }
 
 std::string Syntax::call(const std::string& function, std::span<const std::string> arguments) {
@@ -95,6 +177,11 @@ std::string Syntax::call(const std::string& function, std::span<const std::strin
 
 std::string Syntax::enumerator(const char* type, const char* prefix, std::string_view name) const {
   if (is_cpp()) return fmt::format("{}::{}", type, name);
+  if (is_script()) {
+    std::string word(name);
+    std::erase(word, '_');
+    return '"' + word + '"';
+  }
   std::string upper(name);
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return is_python() ? fmt::format("crt.{}.{}", type, upper) : fmt::format("{}_{}", prefix, upper);

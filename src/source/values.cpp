@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <limits>
 #include <type_traits>
+
+#include "crt/error.hpp"
 
 namespace crt::source {
 
@@ -41,7 +45,11 @@ constexpr KindName light_kinds[] = {
 };
 
 const char* name_of(const Syntax& syntax, const KindName& kind) {
-  return syntax.is_cpp() ? kind.cpp : kind.python;
+  return syntax.is_python() ? kind.python : kind.cpp;
+}
+
+void add_angle(Fields& fields, Program& program, const char* name, double value, double usual) {
+  if (value != usual) fields.add_text(name, name, program.angle(value));
 }
 
 std::string pattern_value(Program& program, const Pattern& pattern);
@@ -62,13 +70,17 @@ class PatternFields {
     if constexpr (std::is_same_v<Kind, ImageMap>) {
       add_image(pattern, usual);
     } else {
-      fields_.add("color_a", "color_a", "alpha_a", pattern.color_a, usual.color_a);
-      fields_.add("color_b", "color_b", "alpha_b", pattern.color_b, usual.color_b);
+      // In a script a pattern stands in the place of a colour.
+      const bool is_script = program_.syntax().is_script();
+      if (!is_script || !pattern.pattern_a)
+        fields_.add("color_a", "color_a", "alpha_a", pattern.color_a, usual.color_a);
+      if (!is_script || !pattern.pattern_b)
+        fields_.add("color_b", "color_b", "alpha_b", pattern.color_b, usual.color_b);
       add_shape(pattern, usual);
       fields_.add("scale", "scale", pattern.scale, usual.scale);
       fields_.add("offset", "offset", pattern.offset, usual.offset);
-      add_nested("pattern_a", pattern.pattern_a);
-      add_nested("pattern_b", pattern.pattern_b);
+      add_nested(is_script ? "color_a" : "pattern_a", pattern.pattern_a);
+      add_nested(is_script ? "color_b" : "pattern_b", pattern.pattern_b);
       if constexpr (requires { pattern.colors; }) add_colors(pattern.colors);
     }
     return fields_;
@@ -107,16 +119,19 @@ class PatternFields {
     if (stops.empty()) return;
     std::vector<std::string> items;
     items.reserve(stops.size());
-    const bool is_python = program_.syntax().is_python();
+    const Syntax& syntax = program_.syntax();
+    const bool is_python = syntax.is_python();
     for (const auto& [position, color] : stops) {
-      items.push_back(
-          fmt::format(fmt::runtime(is_python                    ? "({}, ({}, {}, {}), {})"
-                                   : program_.syntax().is_cpp() ? "{{{}, {{{}, {}, {}, {}}}}}"
-                                                                : "{{{}, {{{}, {}, {}}}, {}}}"),
-                      position, color.r, color.g, color.b, color.a));
+      if (syntax.is_script()) {
+        items.push_back(fmt::format("[{}, {}]", position, syntax.color(color)));
+        continue;
+      }
+      items.push_back(fmt::format(fmt::runtime(is_python         ? "({}, ({}, {}, {}), {})"
+                                               : syntax.is_cpp() ? "{{{}, {{{}, {}, {}, {}}}}}"
+                                                                 : "{{{}, {{{}, {}, {}}}, {}}}"),
+                                  position, color.r, color.g, color.b, color.a));
     }
-    if (!program_.syntax().is_c())
-      return fields_.add_text("colors", "colors", program_.syntax().list(items));
+    if (!syntax.is_c()) return fields_.add_text("colors", "colors", syntax.list(items));
     fields_.add_text("", "colors", program_.array("colors", "crt_color_stop", items));
     fields_.add_text("", "color_count", std::to_string(stops.size()));
   }
@@ -179,19 +194,19 @@ std::string light_value(Program& program, const Light& light) {
         using Kind = std::remove_cvref_t<decltype(one)>;
         const Kind usual{};
         if constexpr (requires { one.from; }) {
-          fields.add("from", "origin", one.from, usual.from);
+          fields.add("from", "origin", one.from, fields.required(usual.from));
         } else {
-          fields.add("origin", "origin", one.origin, usual.origin);
+          fields.add("origin", "origin", one.origin, fields.required(usual.origin));
         }
         if constexpr (requires { one.pointing; })
-          fields.add("pointing", "pointing", one.pointing, usual.pointing);
-        fields.add("color", "color", "", one.color, usual.color);
+          fields.add("pointing", "pointing", one.pointing, fields.required(usual.pointing));
+        fields.add("color", "color", "", one.color, fields.required(usual.color));
         if constexpr (requires { one.angle; }) {
-          fields.add("angle", "angle", one.angle, usual.angle);
-          fields.add("penumbra", "penumbra", one.penumbra, usual.penumbra);
+          add_angle(fields, program, "angle", one.angle, usual.angle);
+          add_angle(fields, program, "penumbra", one.penumbra, usual.penumbra);
         }
         if constexpr (requires { one.radius; })
-          fields.add("radius", "radius", one.radius, usual.radius);
+          fields.add("radius", "radius", one.radius, fields.required(usual.radius));
         if constexpr (requires { one.falloff; })
           fields.add("falloff", "falloff", one.falloff, usual.falloff);
         fields.add("ambient", "ambient", one.ambient, usual.ambient);
@@ -200,17 +215,23 @@ std::string light_value(Program& program, const Light& light) {
   return program.structure("light", name_of(program.syntax(), kind), fields, kind.c);
 }
 
+void add_projection(Fields& fields, const Camera& camera) {
+  fields.add_enum("projection", "projection", "Projection", "CRT_PROJECTION", projections,
+                  camera.projection, Camera{}.projection);
+}
+
 std::string camera_value(Program& program, const Camera& camera) {
   const Camera usual;
   Fields fields(program.syntax());
-  fields.add("position", "position", camera.position, usual.position);
-  fields.add("pointing", "pointing", camera.pointing, usual.pointing);
-  fields.add("fov", "fov", camera.fov, usual.fov);
-  fields.add("roll", "roll", camera.roll, usual.roll);
-  fields.add_enum("projection", "projection", "Projection", "CRT_PROJECTION", projections,
-                  camera.projection, usual.projection);
-  fields.add("aperture", "aperture", camera.aperture, usual.aperture);
-  fields.add("focal_distance", "focal_distance", camera.focal_distance, usual.focal_distance);
+  fields.add("position", "position", camera.position, fields.required(usual.position));
+  fields.add("pointing", "pointing", camera.pointing, fields.required(usual.pointing));
+  add_angle(fields, program, "fov", camera.fov, usual.fov);
+  add_angle(fields, program, "roll", camera.roll, usual.roll);
+  if (!program.syntax().is_script()) add_projection(fields, camera);
+  // Cameras of 2015 have other defaults.
+  fields.add("aperture", "aperture", camera.aperture, fields.required(usual.aperture));
+  fields.add("focal_distance", "focal_distance", camera.focal_distance,
+             fields.required(usual.focal_distance));
   fields.add_enum("aperture_shape", "aperture_shape", "ApertureShape", "CRT_APERTURE",
                   aperture_shapes, camera.aperture_shape, usual.aperture_shape);
   return program.structure("camera", "Camera", fields);
@@ -244,9 +265,10 @@ std::string background_value(Program& program, const Background& background) {
                            fields);
 }
 
-std::string settings_value(Program& program, const Settings& settings) {
+Fields settings_fields(const Program& program, const Settings& settings) {
   const Settings usual;
-  Fields fields(program.syntax());
+  const Syntax& syntax = program.syntax();
+  Fields fields(syntax);
   fields.add_string("title", settings.title);
   fields.add_string("author", settings.author);
   fields.add_string("date", settings.date);
@@ -272,14 +294,16 @@ std::string settings_value(Program& program, const Settings& settings) {
   fields.add_flag("head_light", "", settings.head_light, usual.head_light);
   if (!settings.head_light) fields.add_text("", "no_head_light", "1");
   if (settings.show_clip)
-    fields.add_text("show_clip", "show_clip", program.syntax().is_cpp() ? "true" : "1");
+    fields.add_text("show_clip", "show_clip", syntax.is_python() || syntax.is_c() ? "1" : "true");
+  if (syntax.is_script() && settings.seed > std::numeric_limits<std::int64_t>::max())
+    throw Error(ErrorCode::unsupported, "a seed of 2^63 or more cannot be written in a script");
   if (settings.seed != usual.seed)
     fields.add_text("seed", "seed",
-                    std::to_string(settings.seed) + (program.syntax().is_python() ? "" : "U"));
+                    std::to_string(settings.seed) + (syntax.is_cpp() || syntax.is_c() ? "U" : ""));
   fields.add_enum("precision", "precision", "Precision", "CRT_PRECISION", precisions,
                   settings.precision, usual.precision);
   fields.add("compat", "compat", settings.compat, usual.compat);
-  return program.structure("settings", "Settings", fields);
+  return fields;
 }
 
 }  // namespace crt::source

@@ -25,7 +25,7 @@ constexpr std::array<const char*, 7> completion_kinds = {
     "attribute", "object", "variable", "macro", "function", "constant", "keyword"};
 constexpr std::array<const char*, 6> phases = {"script", "preparing", "rendering",
                                                "done",   "cancelled", "failed"};
-constexpr std::array<const char*, 3> languages = {"cpp", "python", "c"};
+constexpr std::array<const char*, 4> languages = {"cpp", "python", "c", "script"};
 constexpr std::array<const char*, 4> projections = {"pinhole", "spherical", "cylindrical",
                                                     "orthographic"};
 
@@ -278,7 +278,7 @@ json code_json(const View& view, const json& question) {
   const auto language = question.at("language").get<std::string>();
   const auto found = std::find(languages.begin(), languages.end(), language);
   if (found == languages.end())
-    throw Error(ErrorCode::invalid_argument, "code is written in cpp, python or c");
+    throw Error(ErrorCode::invalid_argument, "code is written in cpp, python, c or script");
   const SourceOptions options{.language = static_cast<SourceLanguage>(found - languages.begin())};
   SourceCode code;
   if (!question.contains("span")) {
@@ -288,6 +288,11 @@ json code_json(const View& view, const json& question) {
     const std::size_t entity =
         entity_within(view, span.at(0).get<std::uint32_t>(), span.at(1).get<std::uint32_t>());
     code = source_code(view.original->entities.at(entity), options);
+  }
+  if (!code.files.empty()) {
+    throw Error(ErrorCode::unsupported,
+                "the meshes and images of a script are files beside it, which cannot be copied: "
+                "crt export --as script -o writes them");
   }
   return {{"text", code.text}, {"warnings", code.warnings}};
 }

@@ -258,7 +258,7 @@ void Session::edit_settings() {
 
 void Session::edit_scene() {
   crt_scene* const scene = scenes_.any(input_);
-  switch (input_.below(7)) {
+  switch (input_.below(8)) {
     case 0:
     case 1:
       if (crt_scene_entity_count(scene) < 8) crt_scene_add_entity(scene, entities_.any(input_));
@@ -298,6 +298,10 @@ void Session::edit_scene() {
     case 5:
       if (input_.below(4) == 0) crt_scene_clear_entities(scene);
       if (input_.below(4) == 0) crt_scene_clear_lights(scene);
+      break;
+    case 6:
+      crt_scene_replace_entity(scene, input_.below(5), entities_.any(input_));
+      if (input_.below(2) == 0) crt_scene_remove_entity(scene, input_.below(5));
       break;
     default:
       edit_settings();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "support.hpp"
+#include "support/temporary_directory.hpp"
 
 using namespace crt::test;
 
@@ -162,6 +163,61 @@ TEST_CASE("each thread has its own last message") {
   std::thread([&others] { others = crt_error_message(); }).join();
   CHECK(others.empty());
   CHECK(says("radius"));
+}
+
+TEST_CASE("an entity is described as JSON, as much of it as fits") {
+  const EntityHandle ball = sphere({0, 0, 0}, 0.5);
+  std::size_t length = 0;
+  REQUIRE(crt_entity_describe(ball.get(), nullptr, 0, &length) == CRT_OK);
+  std::string text(length + 1, '?');
+  REQUIRE(crt_entity_describe(ball.get(), text.data(), text.size(), &length) == CRT_OK);
+  CHECK(text.substr(0, length) ==
+        R"([{"kind":"Sphere","parent":null,"values":{"center":[0, 0, 0],"radius":0.5}}])");
+  CHECK(text.back() == '\0');
+  REQUIRE(crt_entity_describe(ball.get(), text.data(), 4, &length) == CRT_OK);
+  CHECK(std::string(text.c_str()) == "[{\"");
+  const double affine[12] = {1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0};
+  const EntityHandle moved = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_entity_with_transform(ball.get(), affine, out); });
+  text.assign(400, '?');
+  REQUIRE(crt_entity_describe(moved.get(), text.data(), text.size(), &length) == CRT_OK);
+  CHECK(text.find(R"("translation":[2, 0, 0]}},{"kind":"Sphere","parent":0,)") !=
+        std::string::npos);
+}
+
+TEST_CASE("entities are replaced and taken out at their places, and nowhere else") {
+  const SceneHandle scene = small_scene();
+  REQUIRE(crt_scene_entity_count(scene.get()) == 2);
+  const EntityHandle ball = sphere({0, 0, 0}, 0.125);
+  CHECK(crt_scene_replace_entity(scene.get(), 2, ball.get()) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("index"));
+  CHECK(crt_scene_remove_entity(scene.get(), 2) == CRT_ERROR_INVALID_ARGUMENT);
+  REQUIRE(crt_scene_replace_entity(scene.get(), 1, ball.get()) == CRT_OK);
+  REQUIRE(crt_scene_remove_entity(scene.get(), 0) == CRT_OK);
+  REQUIRE(crt_scene_entity_count(scene.get()) == 1);
+  const EntityHandle left = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_scene_get_entity(scene.get(), 0, out); });
+  CHECK(crt_entity_primitive_count(left.get()) == 1);
+}
+
+TEST_CASE("a scene is saved as a script that renders the same picture") {
+  const TemporaryDirectory folder;
+  const std::string path = folder / "scene.crt";
+  const SceneHandle scene = small_scene();
+  REQUIRE(crt_scene_save_script(scene.get(), path.c_str()) == CRT_OK);
+  const SceneHandle read = made<SceneHandle>([&](crt_scene** out) {
+    return crt_scene_from_script_file(path.c_str(), nullptr, nullptr, out);
+  });
+  const auto pixels_of = [](crt_scene* of) {
+    const ImageHandle image = render(prepare(of).get());
+    std::size_t stride = 0;
+    const float* const pixels = crt_image_pixels(image.get(), &stride);
+    const std::size_t count = crt_image_height(image.get()) * stride / sizeof(float);
+    return std::vector<float>(pixels, pixels + count);
+  };
+  CHECK(pixels_of(read.get()) == pixels_of(scene.get()));
+  CHECK(crt_scene_save_script(scene.get(), (folder / "none/scene.crt").c_str()) == CRT_ERROR_IO);
+  CHECK(folder.entries() == 1);
 }
 
 TEST_CASE("a scene is edited without touching what was prepared or copied from it") {

@@ -27,7 +27,9 @@ TEST_CASE_FIXTURE(Fixture, "the ending of the output says the language, and --as
   CHECK(run_crt(folder, {"export", "ball.crt", "-o", "c.cpp", "--as", "c"}).exit_code == 0);
   CHECK(contains(folder.read("ball.cpp"), "Scene make_scene() {"));
   CHECK(contains(folder.read("ball.py"), "def make_scene():"));
+  CHECK(run_crt(folder, {"export", "ball.crt", "-o", "plain.crt"}).exit_code == 0);
   CHECK(contains(folder.read("ball.c"), "static crt_scene* make_scene(void) {"));
+  CHECK(contains(folder.read("plain.crt"), "Scene {\n    Sphere {"));
   CHECK(folder.read("c.cpp") == folder.read("ball.c"));
 }
 
@@ -57,9 +59,31 @@ TEST_CASE_FIXTURE(Fixture, "one entity is a function, and one that is not there 
 TEST_CASE_FIXTURE(Fixture, "what cannot be is refused, and nothing is written") {
   CHECK(run_crt(folder, {"export", "ball.crt", "--as", "cobol"}).exit_code == 2);
   CHECK(run_crt(folder, {"export", "ball.crt", "--entity", "-1"}).exit_code == 2);
+  const std::string before = folder.read("ball.crt");
+  CHECK(run_crt(folder, {"export", "ball.crt", "-o", "./ball.crt"}).exit_code == 1);
+  CHECK(folder.read("ball.crt") == before);
   CHECK(run_crt(folder, {"export", "none.crt", "-o", "none.cpp"}).exit_code == 3);
   folder.write("wrong.crt", "Scene { Ball { } }\n");
   CHECK(run_crt(folder, {"export", "wrong.crt", "-o", "wrong.cpp"}).exit_code == 1);
   CHECK(!folder.has("none.cpp"));
   CHECK(!folder.has("wrong.cpp"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "an entity of a script is a macro that can be called") {
+  const Outcome run = run_crt(folder, {"export", "ball.crt", "--entity", "0", "--as", "script"});
+  CHECK_MESSAGE(run.exit_code == 0, run.err);
+  folder.write("called.crt", run.out + "Scene { make_entity() }\n");
+  CHECK(run_crt(folder, {"check", "called.crt"}).exit_code == 0);
+}
+
+TEST_CASE_FIXTURE(Fixture, "files of a script lie beside it, and have none without its name") {
+  folder.write("facet.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  folder.write("facet.crt", "Scene { Mesh { file -> \"facet.off\" } }\n");
+  const Outcome named = run_crt(folder, {"export", "facet.crt", "-o", "plain.crt"});
+  CHECK_MESSAGE(named.exit_code == 0, named.err);
+  CHECK(contains(folder.read("plain.crt"), "Mesh { file -> \"plain-"));
+  CHECK(run_crt(folder, {"check", "plain.crt"}).exit_code == 0);
+  const Outcome streamed = run_crt(folder, {"export", "facet.crt", "--as", "script"});
+  CHECK(streamed.exit_code == 1);
+  CHECK(contains(streamed.err, "give the script a name with -o"));
 }

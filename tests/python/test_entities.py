@@ -63,6 +63,18 @@ class Primitives(unittest.TestCase):
                 (crossings(empty), empty.primitive_count, empty.is_solid), ([], 0, True)
             )
 
+    def test_an_entity_is_described_with_its_parts_behind_it(self):
+        red = crt.Material(color=(1, 0, 0))
+        cut = crt.Box((0, 0, 0), (1, 1, 1)) - crt.Sphere((0, 0, 0), 0.5)
+        placed, difference, box, ball = cut.moved((2, 0, 0)).with_material(red).describe()
+        self.assertEqual((placed["kind"], placed["parent"]), ("Placed", None))
+        self.assertEqual(placed["values"]["translation"], [2, 0, 0])
+        self.assertEqual(placed["values"]["color"], [1, 0, 0])
+        self.assertEqual(difference, {"kind": "Difference", "parent": 0, "values": {}})
+        self.assertEqual((box["kind"], box["parent"]), ("Box", 1))
+        values = {"center": [0, 0, 0], "radius": 0.5}
+        self.assertEqual(ball, {"kind": "Sphere", "parent": 1, "values": values})
+
     def test_a_mesh_takes_whole_numbers_below_the_number_of_positions(self):
         corners = np.eye(3)
         for wrong in ([[0, 1, 3]], [[0, 1, -1]], [[0.0, 1.0, 2.0]], [0, 1, 2]):

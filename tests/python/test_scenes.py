@@ -2,6 +2,9 @@
 in them changes the scene."""
 
 import math
+import os
+import pathlib
+import tempfile
 import threading
 import unittest
 
@@ -21,6 +24,28 @@ Scene {
 
 def hits_along_x(scene: crt.Scene) -> list[float]:
     return list(scene.prepare().crossings(crt.ray((-10, 0.25, 0.25), (1, 0, 0)))["entity_id"])
+
+
+class Saving(unittest.TestCase):
+    def test_a_saved_scene_is_read_as_the_same(self):
+        image = crt.Image.from_pixels(np.random.default_rng(1).random((4, 4, 4), np.float32))
+        scene = small_scene(48)
+        scene.add(crt.Mesh([(0, 0, -3), (1, 0, -3), (0, 1, -3)], [(0, 1, 2)]).with_id(7))
+        scene.background = crt.Background(type="spherical", image=image)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scène.crt")
+            scene.save_script(path)
+            self.assertEqual(len(os.listdir(folder)), 3)
+            again = crt.Scene.from_file(path)
+        self.assertEqual(len(again.entities), len(scene.entities))
+        np.testing.assert_array_equal(again.render(), scene.render())
+
+    def test_what_no_script_has_is_an_error_and_nothing_is_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = crt.Scene(settings=crt.Settings(seed=2**63))
+            with self.assertRaisesRegex(crt.Error, "a seed of 2\\^63"):
+                scene.save_script(pathlib.Path(folder, "a.crt"))
+            self.assertEqual(os.listdir(folder), [])
 
 
 class Values(unittest.TestCase):

@@ -1,4 +1,5 @@
-"""crt.live() shows a script in a notebook: the page answers as long as the object lives."""
+"""crt.live() shows a scene or a script in a notebook: the page answers as long as the object
+lives."""
 
 import gc
 import html
@@ -88,6 +89,45 @@ class Notebook(unittest.TestCase):
         client.send(type="look")
         self.assertEqual(client.wait("changed")["text"], view.script)
 
+    def test_a_scene_is_shown_as_the_script_that_it_is_saved_as(self):
+        corners = [(0, 0, 3), (1, 0, 3), (0, 1, 3)]
+        scene = crt.Scene(
+            [crt.Mesh(corners, [(0, 1, 2)])], settings=crt.Settings(width=64, height=48)
+        )
+        view = self.live(scene)
+        client = Client(Reached(view.address))
+        self.addCleanup(client.close)
+        client.set_text(client.open(client.hello["script"]))
+        client.finish()
+        first = client.picture()
+        files = os.listdir(view._file.parent)
+        self.assertEqual(len(files), 2)
+        scene.entities[0] = crt.Mesh(corners[::-1], [(0, 1, 2)])
+        scene.entities.append(crt.Sphere((0, 0, 3), 0.5))
+        view.show(scene)
+        client.send(type="look")
+        changed = client.wait("changed")["text"]
+        self.assertIn("Sphere", changed)
+        self.assertEqual(changed, view.script)
+        client.set_text(changed)
+        client.finish()
+        self.assertNotEqual(client.picture(), first)
+        self.assertEqual(len(os.listdir(view._file.parent)), 2)  # the first mesh is gone
+        view.show(BALL)
+        self.assertEqual(view.script, BALL)
+
+    def test_a_studio_that_complains_a_lot_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            loud = pathlib.Path(folder, "loud")
+            loud.write_text(
+                "#!/bin/sh\n"
+                "echo http://127.0.0.1:1/#token=0\n"
+                f"head -c 1000000 /dev/zero >&2; touch {folder}/done; cat\n"
+            )
+            loud.chmod(0o700)
+            with crt.live(BALL, command=str(loud)):
+                wait_until(pathlib.Path(folder, "done").exists)
+
     def test_a_file_is_shown_where_it_is(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "ball.crt")
@@ -135,7 +175,7 @@ class Notebook(unittest.TestCase):
             self.live(pathlib.Path("/nonexistent/a.crt"))
         with self.assertRaisesRegex(ValueError, "use crt.live"):
             self.live("ball.crt")
-        with self.assertRaisesRegex(TypeError, "live: script"):
+        with self.assertRaisesRegex(TypeError, "live: scene"):
             self.live(7)
         port = int(re.search(r":(\d+)/", self.live().address)[1])
         with self.assertRaisesRegex(crt.Error, "cannot listen"):

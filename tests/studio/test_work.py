@@ -268,6 +268,7 @@ class Work(OpenedFolder):
         statement = units(SCENE[: SCENE.index("ball(-1)")])
         of_macro = client.code("c", [statement, statement + len("ball(-1)")])["text"]
         self.assertIn("crt_sphere_create((const double[]){-1, 0, 0}, 0.7", of_macro)
+        self.assertIn("Scene {\n", client.code("script")["text"])
         for wrong in ({"language": "cobol"}, {"language": "c", "span": [0, 3]}):
             client.send(type="code", id=99, **wrong)
             self.assertEqual(client.wait("error")["id"], 99)

@@ -9,8 +9,8 @@ export interface CopyHost {
   note(text: string, kind: 'note' | 'warning'): void;
 }
 
-const languages = [['cpp', 'C++'], ['python', 'Python'], ['c', 'C']] as const;
-const endings: Record<string, string> = {cpp: 'cpp', python: 'py', c: 'c'};
+const languages = [['cpp', 'C++'], ['python', 'Python'], ['c', 'C'], ['script', 'a script']] as const;
+const endings: Record<string, string> = {cpp: 'cpp', python: 'py', c: 'c', script: 'crt'};
 
 export function makeCopyList(host: CopyHost): HTMLSelectElement {
   const list = document.createElement('select');

@@ -1,6 +1,7 @@
 // Where the panels are, and the theme. The browser keeps both.
 
 import {createDockview, themeDark, themeLight, type DockviewApi} from 'dockview-core';
+import {storage} from './storage';
 
 export interface PanelContent {
   title: string;
@@ -20,7 +21,7 @@ export class Layout {
       theme: themeDark,
       createComponent: ({name}) => ({element: this.panels[name]!.element, init: () => undefined}),
     });
-    this.applyTheme(localStorage.getItem(themeKey) ??
+    this.applyTheme(storage.getItem(themeKey) ??
       (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark'));
   }
 
@@ -28,10 +29,14 @@ export class Layout {
   start(only?: string): void {
     const {clientWidth, clientHeight} = document.getElementById('dock')!;
     this.dock.layout(clientWidth, clientHeight);
-    if (only !== undefined && this.panels[only]) return this.show(only);
+    if (only !== undefined && this.panels[only]) {
+      this.show(only);
+      this.dock.getPanel(only)!.group.header.hidden = true;
+      return;
+    }
     this.restore();
     this.dock.onDidLayoutChange(() =>
-      localStorage.setItem(layoutKey, JSON.stringify(this.dock.toJSON())));
+      storage.setItem(layoutKey, JSON.stringify(this.dock.toJSON())));
   }
 
   /** Makes the list that brings closed panels back. */
@@ -51,7 +56,7 @@ export class Layout {
 
   applyTheme(theme: string): void {
     document.documentElement.dataset.theme = theme;
-    localStorage.setItem(themeKey, theme);
+    storage.setItem(themeKey, theme);
     this.dock.updateOptions({theme: theme === 'dark' ? themeDark : themeLight});
   }
 
@@ -67,7 +72,7 @@ export class Layout {
 
   private restore(): void {
     try {
-      const layout = localStorage.getItem(layoutKey);
+      const layout = storage.getItem(layoutKey);
       if (layout === null) return this.arrange();
       this.dock.fromJSON(JSON.parse(layout));
       if (this.dock.panels.length === 0) this.arrange();

@@ -1,6 +1,7 @@
 // The script's file: what is opened, saved, kept until then, and written by other programs.
 
 import {ask} from './question';
+import {storage} from './storage';
 
 export interface ScriptHost {
   send(message: Record<string, unknown>): void;
@@ -62,7 +63,7 @@ export class ScriptFile {
     this.name = script;
     this.list.value = script;
     document.title = `${script} – CRT studio`;
-    const kept = localStorage.getItem(this.draftKey);
+    const kept = storage.getItem(this.draftKey);
     this.savedText = text;
     this.hasText = true;
     this.host.show(kept ?? text);
@@ -81,8 +82,8 @@ export class ScriptFile {
   /** Keeps each new text in the browser until it is saved. */
   keep(text: string): void {
     document.body.classList.toggle('changed', this.isChanged);
-    if (this.isChanged) localStorage.setItem(this.draftKey, text);
-    else localStorage.removeItem(this.draftKey);
+    if (this.isChanged) storage.setItem(this.draftKey, text);
+    else storage.removeItem(this.draftKey);
   }
 
   save(force: boolean): void {
@@ -92,7 +93,7 @@ export class ScriptFile {
 
   saved(script: string, scripts: string[]): void {
     this.savedText = this.host.text();
-    localStorage.removeItem(this.draftKey);
+    storage.removeItem(this.draftKey);
     document.body.classList.remove('changed');
     this.listScripts(scripts);
     this.host.note(`Saved ${script}`);

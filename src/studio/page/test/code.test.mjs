@@ -24,6 +24,8 @@ withPage('the selected entity and the scene are copied in each language', async 
   assert.match(scene, /crt\.Sphere\(center=\(-1, 0, 0\), radius=0\.7/);
   await page.evaluate(() => studio.console.element.replaceChildren());
   assert.match(await copied(page, 'scene c'), /crt_box_create/);
+  await page.evaluate(() => studio.console.element.replaceChildren());
+  assert.match(await copied(page, 'scene script'), /Scene \{\n.*Box \{ cornerA -> /s);
 });
 
 test('a scene of a program is listed, turned and picked, and cannot be changed', async () => {

@@ -278,3 +278,24 @@ test('what was typed in another browser is offered after a crash', async () => {
   assert.throws(() => readFileSync(kept));
   remove();
 });
+
+test('the picture alone fills the page, also where the browser keeps nothing', async () => {
+  const {folder, remove} = folderWith({'a.crt': scene});
+  const server = await startServer(folder, 'a.crt');
+  const context = await browser().newContext({viewport: {width: 800, height: 480}});
+  await context.addInitScript(() => Object.defineProperty(window, 'localStorage', {
+    get() { throw new DOMException('Access is denied', 'SecurityError'); },
+  }));
+  const page = await context.newPage();
+  try {
+    await page.goto(`${server.url}&only=view`);
+    await whole(page);
+    const {height} = await page.locator('.live canvas').boundingBox();
+    assert.ok(height > 400, `${height} pixels high`);
+    assert.equal(await page.locator('.dv-tab:visible').count(), 0);
+  } finally {
+    await context.close();
+    await server.end();
+    remove();
+  }
+});
