@@ -1,5 +1,6 @@
 #include "cli/option_values.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -205,6 +206,28 @@ NetworkAddress parse_display(const std::string& text) {
   if (!fine || address.host.empty())
     throw WrongValue("--display", "HOST:PORT, such as 127.0.0.1:14158", text);
   return address;
+}
+
+std::string parse_ip_address(const std::string& option, const std::string& text) {
+  const bool has_brackets = text.starts_with('[') && text.ends_with(']');
+  const std::string plain = has_brackets ? text.substr(1, text.size() - 2) : text;
+  in6_addr address{};
+  if (inet_pton(AF_INET6, plain.c_str(), &address) == 1) return plain;
+  if (!has_brackets && inet_pton(AF_INET, plain.c_str(), &address) == 1) return plain;
+  throw WrongValue(option, "an IP address, such as 0.0.0.0 or ::1", text);
+}
+
+std::string parse_host_name(const std::string& option, const std::string& text) {
+  constexpr std::string_view allowed =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-.";
+  if (!text.empty() && text.find_first_not_of(allowed) == std::string::npos) return text;
+  if (text.starts_with('[')) {
+    in6_addr address{};
+    if (inet_pton(AF_INET6, text.substr(1, text.size() - 2).c_str(), &address) == 1 &&
+        text.ends_with(']'))
+      return text;
+  }
+  throw WrongValue(option, "the name of a machine, without a port", text);
 }
 
 std::string all_aov_names() {

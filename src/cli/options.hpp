@@ -144,8 +144,13 @@ struct LspRequest {};
 
 /// A StudioRequest asks for the page that shows a script while it is written.
 struct StudioRequest : CommonRequest {
-  std::filesystem::path scene;  ///< a script or a folder; empty for the current folder
-  int port = 0;                 ///< 0 takes one that is free
+  std::filesystem::path scene;       ///< a script or a folder; empty for the current folder
+  std::string listen = "127.0.0.1";  ///< an IP address without brackets
+  int port = 0;                      ///< 0 takes one that is free
+  std::vector<std::string> names;    ///< what browsers may call this machine, too
+  // Without a certificate it is not encrypted. The key may be in the same file.
+  std::filesystem::path tls_certificate;
+  std::filesystem::path tls_key;
   int threads = 0;
   bool embed = false;  ///< in a frame of another page, until standard input ends
 };

@@ -211,8 +211,12 @@ lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
   without '^src/studio/(messages|view_messages|listing|scene_server)\.cpp:' |
   without '^src/studio/(studio_client|view_client)\.cpp:' |
   complain "JSON outside the sources that have to wait for it"
-lines_with '^#include <boost/' "${code[@]}" | without '^src/studio/web_server\.cpp:' |
-  complain "Boost outside src/studio/web_server.cpp: one source is enough to wait for"
+lines_with '^#include <boost/' "${code[@]}" |
+  without '^src/studio/(session\.hpp|tls\.cpp|web_server\.cpp):' |
+  complain "Boost outside the studio's server: few sources are enough to wait for"
+lines_with '^#include "studio/(session|tls)\.hpp"' "${code[@]}" |
+  without '^src/studio/(main|session|tls|web_server)\.cpp:' |
+  complain "Boost or OpenSSL seen outside the studio's server"
 tracked '*.y' '*.re' | without '^src/lang/' | complain "Bison or re2c outside src/lang"
 check_public_only | complain "Only crt/*.hpp may be seen from here"
 check_umbrella | complain "A public header is missing from crt.hpp"

@@ -1,12 +1,11 @@
 """A program shows a scene of its own: examples/cpp/studio_scene.cpp, by the studio's protocol."""
 
 import os
-import re
 import signal
 import subprocess
 import unittest
 
-from client import Client, Server
+from client import ADDRESS, Client, Server
 
 EXAMPLE = os.environ["CRT_STUDIO_SCENE"]
 SECONDS = 60
@@ -19,9 +18,9 @@ class Program(Server):
         self.process = subprocess.Popen(
             [EXAMPLE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
-        line = self.process.stdout.readline()
-        found = re.search(r"http://127\.0\.0\.1:(\d+)/#token=([0-9a-f]+)", line)
-        self.port, self.token = int(found[1]), found[2]
+        found = ADDRESS.search(self.process.stdout.readline())
+        self.host, self.port, self.token = found[2], int(found[3]), found[4]
+        self.tls = None
 
     def write(self, text):
         self.process.stdin.write(text)

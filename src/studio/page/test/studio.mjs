@@ -31,15 +31,15 @@ export function copyScene(folder, name) {
 }
 
 /** Starts the server. `end` interrupts it and gives its exit code. */
-export async function startServer(folder, script = '', port = 0) {
-  const child = spawn(program, [folder, script, String(port), '0'],
+export async function startServer(folder, script = '', port = 0, more = []) {
+  const child = spawn(program, [`folder=${folder}`, `script=${script}`, `port=${port}`, ...more],
                       {stdio: ['ignore', 'pipe', 'inherit']});
   const ended = new Promise((resolve) => child.on('exit', (code, signal) => resolve(code ?? signal)));
   const url = await new Promise((resolve, reject) => {
     let output = '';
     child.stdout.on('data', (data) => {
       output += data;
-      const found = /http:\S+/.exec(output);
+      const found = /https?:\S+/.exec(output);
       if (found) resolve(found[0]);
     });
     child.on('exit', () => reject(new Error('the server ended')));
