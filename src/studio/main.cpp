@@ -102,8 +102,9 @@ int serve(Task task) {
   options.files = page_files();
   if (!task.certificate.empty())
     options.transport = make_tls(task.certificate, task.key.empty() ? task.certificate : task.key);
+  const auto pages = std::make_shared<OpenPages>();
   WebServer server(options, [&](std::shared_ptr<Connection> connection) {
-    return make_studio_client(std::move(connection), folder, task.studio);
+    return make_studio_client(std::move(connection), folder, pages, task.studio);
   });
   warn_of_listeners(options);
   for (const std::string& host : hosts_of(options))

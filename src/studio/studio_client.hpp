@@ -6,6 +6,7 @@
 #include <string>
 
 #include "studio/folder.hpp"
+#include "studio/open_pages.hpp"
 #include "studio/web_server.hpp"
 
 namespace crt::studio {
@@ -17,6 +18,7 @@ struct StudioOptions {
 
 std::unique_ptr<Client> make_studio_client(std::shared_ptr<Connection> connection,
                                            std::shared_ptr<const Folder> folder,
+                                           std::shared_ptr<OpenPages> pages,
                                            const StudioOptions& options);
 
 }  // namespace crt::studio

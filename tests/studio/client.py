@@ -18,9 +18,6 @@ STUDIO = os.environ["CRT_STUDIO"]
 SECONDS = 60
 
 
-ADDRESS = re.compile(r"(https?)://([^/]+):(\d+)/#token=([0-9a-f]+)")
-
-
 class Server:
     """The studio on a folder. `words` are more that the command passes. `certificate` is what it
     shows by TLS, if it does."""
@@ -31,9 +28,15 @@ class Server:
             stdout=subprocess.PIPE,
             text=True,
         )
-        found = ADDRESS.search(self.process.stdout.readline())
+        self.take(self.process.stdout.readline())
+        if certificate:
+            self.tls = ssl.create_default_context(cafile=certificate)
+
+    def take(self, line):
+        """Takes the address that a server has printed."""
+        found = re.search(r"(https?)://([^/]+):(\d+)/#token=([0-9a-f]+)", line)
         self.scheme, self.host, self.port, self.token = found[1], found[2], int(found[3]), found[4]
-        self.tls = certificate and ssl.create_default_context(cafile=certificate)
+        self.tls = None
 
     def connect(self, seconds=SECONDS):
         """Connects by TCP, and by TLS if the server has it."""

@@ -5,7 +5,7 @@ import signal
 import subprocess
 import unittest
 
-from client import ADDRESS, Client, Server
+from client import Client, Server
 
 EXAMPLE = os.environ["CRT_STUDIO_SCENE"]
 SECONDS = 60
@@ -18,9 +18,7 @@ class Program(Server):
         self.process = subprocess.Popen(
             [EXAMPLE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
-        found = ADDRESS.search(self.process.stdout.readline())
-        self.host, self.port, self.token = found[2], int(found[3]), found[4]
-        self.tls = None
+        self.take(self.process.stdout.readline())
 
     def write(self, text):
         self.process.stdin.write(text)

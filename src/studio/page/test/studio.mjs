@@ -1,6 +1,6 @@
 // Starts the studio and a browser for the tests.
 import {spawn} from 'node:child_process';
-import {cpSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {cpSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
@@ -28,6 +28,12 @@ export function folderWith(scripts) {
 
 export function copyScene(folder, name) {
   cpSync(join(project, 'examples/scenes', name), join(folder, name));
+}
+
+/** The texts that the server keeps of pages which have not saved them. */
+export function keptTexts(folder) {
+  return readdirSync(folder).filter((name) => name.endsWith('.typed'))
+    .map((name) => readFileSync(join(folder, name), 'utf8'));
 }
 
 /** Starts the server. `end` interrupts it and gives its exit code. */
