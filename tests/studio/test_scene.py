@@ -45,7 +45,7 @@ class Scene(unittest.TestCase):
 
     def show(self, client, text):
         """Gives the text a revision, and waits for its picture. Returns the last messages of each
-        type, which come in any order."""
+        type."""
         client.set_text(text)
         seen = {}
         while not {"analysis", "scene", "finished"} <= seen.keys():
@@ -87,6 +87,17 @@ class Scene(unittest.TestCase):
         self.program.write("7\n")
         self.show(client, client.wait("changed")["text"])
         self.assertEqual(client.picture(), first)
+
+    def test_messages_come_in_the_order_in_which_they_were_sent(self):
+        client, text, _ = self.start()
+        for _ in range(300):
+            client.set_text(text)
+            kinds = []
+            while "scene" not in kinds:
+                message = client.receive()
+                if isinstance(message, dict) and message.get("revision") == client.revision:
+                    kinds.append(message["type"])
+            self.assertEqual(kinds[:2], ["analysis", "diagnostics"])
 
     def test_picking_says_which_entity_was_hit(self):
         client, text, seen = self.start()
