@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <crt/draft.hpp>
 #include <cstdint>
 #include <thread>
 
@@ -22,17 +23,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds interval{100};
 /// A draft has a pixel for so many, across and down.
 constexpr int draft_step = 8;
-
-/// Returns the scene as it is drawn in a draft.
-Scene draft_of(Scene scene) {
-  Settings& settings = scene.settings;
-  settings.width = std::max(1, settings.width / draft_step);
-  settings.height = std::max(1, settings.height / draft_step);
-  settings.supersampling = settings.dof_samples = 1;
-  settings.target_error = settings.time_budget = 0;
-  scene.camera.aperture = 0;
-  return scene;
-}
 
 /// Returns a picture with the sides of `settings` that shows another one with fewer pixels.
 Image enlarged(const Image& small, const Settings& settings) {
@@ -132,7 +122,7 @@ class Watch {
     const Settings& settings = scene->settings;
     const WriteOptions how{.reproducible = request_.reproducible};
     if (std::min(settings.width, settings.height) > draft_step) {
-      const Image draft = render_one(draft_of(*scene), ProgressStyle::none, reporter);
+      const Image draft = render_one(draft_of(*scene, draft_step), ProgressStyle::none, reporter);
       enlarged(draft, settings).write(output_, how);
       reporter.note(fmt::format("{}: a draft, {:.2f} s", output_.string(), watch.seconds()));
     }

@@ -1,6 +1,7 @@
 #include "studio/renderer.hpp"
 
 #include <algorithm>
+#include <crt/draft.hpp>
 #include <crt/error.hpp>
 #include <crt/job.hpp>
 #include <new>
