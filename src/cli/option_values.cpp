@@ -186,26 +186,9 @@ int parse_sample_count(const std::string& option, const std::string& text) {
   return count;
 }
 
-NetworkAddress parse_display(const std::string& text) {
-  constexpr int usual_port = 14158;
-  constexpr int highest_port = 65535;
-  // An address of IPv6 stands in brackets: [::1]:14158.
-  const std::size_t bracket = text.starts_with('[') ? text.find(']') : 0;
-  const std::size_t colon =
-      bracket == std::string::npos ? std::string::npos : text.find(':', bracket);
-  NetworkAddress address{.host = text.substr(0, colon), .port = usual_port};
-  bool fine = bracket != std::string::npos;
-  if (colon != std::string::npos) {
-    fine = fine && parse_whole(std::string_view(text).substr(colon + 1), address.port) &&
-           address.port >= 1 && address.port <= highest_port;
-  }
-  if (text.starts_with('[') && fine) {
-    fine = address.host.ends_with(']');
-    address.host = address.host.substr(1, bracket - 1);
-  }
-  if (!fine || address.host.empty())
-    throw WrongValue("--display", "HOST:PORT, such as 127.0.0.1:14158", text);
-  return address;
+tev::ViewerAddress parse_display(const std::string& text) {
+  if (std::optional<tev::ViewerAddress> address = tev::viewer_address(text)) return *address;
+  throw WrongValue("--display", "HOST:PORT, such as 127.0.0.1:14158", text);
 }
 
 std::string parse_ip_address(const std::string& option, const std::string& text) {

@@ -57,7 +57,7 @@ int parse_threads(const std::string& text);
 int parse_sample_count(const std::string& option, const std::string& text);
 
 /// Returns what "HOST:PORT" says. Without a port it is that of the viewer tev.
-NetworkAddress parse_display(const std::string& text);
+tev::ViewerAddress parse_display(const std::string& text);
 
 /// Returns an IP address without the brackets that it may have.
 std::string parse_ip_address(const std::string& option, const std::string& text);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/command_description.hpp"
+#include "tev/tev_viewer.hpp"
 
 namespace crt::cli {
 
@@ -53,12 +54,6 @@ struct PictureRequest : CommonRequest {
   bool reproducible = false;
 };
 
-/// A NetworkAddress is where a program listens.
-struct NetworkAddress {
-  std::string host;
-  int port = 0;
-};
-
 struct RenderRequest : PictureRequest {
   std::vector<std::filesystem::path> scenes;
   std::optional<FrameRange> frames;
@@ -66,12 +61,13 @@ struct RenderRequest : PictureRequest {
   std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
-  bool show = false;                      ///< in the terminal
-  std::optional<NetworkAddress> display;  ///< of a viewer that shows pictures in progress
+  bool show = false;                          ///< in the terminal
+  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress
 };
 
 struct WatchRequest : PictureRequest {
   std::filesystem::path scene;
+  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress
 };
 
 /// A FarmRequest holds what all verbs of the command take. `given` has the options by name.
@@ -151,6 +147,7 @@ struct StudioRequest : CommonRequest {
   // Without a certificate it is not encrypted. The key may be in the same file.
   std::filesystem::path tls_certificate;
   std::filesystem::path tls_key;
+  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress, too
   int threads = 0;
   bool embed = false;  ///< in a frame of another page, until standard input ends
 };

@@ -49,7 +49,7 @@ class StudioClient : public ViewClient {
  public:
   StudioClient(std::shared_ptr<Connection> connection, std::shared_ptr<const Folder> folder,
                std::shared_ptr<OpenPages> pages, const StudioOptions& options)
-      : ViewClient(std::move(connection), options.threads),
+      : ViewClient(std::move(connection), options.threads, options.show),
         folder_(std::move(folder)),
         pages_(std::move(pages)),
         page_(make_token()),

@@ -15,6 +15,7 @@ import time
 import unittest
 
 STUDIO = os.environ["CRT_STUDIO"]
+COMMAND = os.environ["CRT_COMMAND"]
 SECONDS = 60
 
 

@@ -1,6 +1,5 @@
 """The studio on a network: by TLS, by the names that lead to it, and among those who disturb."""
 
-import os
 import pathlib
 import random
 import re
@@ -11,9 +10,8 @@ import subprocess
 import tempfile
 import unittest
 
-from client import SECONDS, Client, Server
+from client import COMMAND, SECONDS, Client, Server
 
-COMMAND = os.environ["CRT_COMMAND"]
 SCENE = """Settings { width -> 64 height -> 48 }
 Scene { Sphere { center -> vec3(0, 0, 2) radius -> 1 } }
 """
