@@ -8,6 +8,7 @@
 #include <crt/curves.hpp>
 #include <crt/custom.hpp>
 #include <crt/cutters.hpp>
+#include <crt/draft.hpp>
 #include <crt/elementary.hpp>
 #include <crt/entity.hpp>
 #include <crt/error.hpp>

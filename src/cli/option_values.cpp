@@ -1,5 +1,6 @@
 #include "cli/option_values.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -185,26 +186,31 @@ int parse_sample_count(const std::string& option, const std::string& text) {
   return count;
 }
 
-NetworkAddress parse_display(const std::string& text) {
-  constexpr int usual_port = 14158;
-  constexpr int highest_port = 65535;
-  // An address of IPv6 stands in brackets: [::1]:14158.
-  const std::size_t bracket = text.starts_with('[') ? text.find(']') : 0;
-  const std::size_t colon =
-      bracket == std::string::npos ? std::string::npos : text.find(':', bracket);
-  NetworkAddress address{.host = text.substr(0, colon), .port = usual_port};
-  bool fine = bracket != std::string::npos;
-  if (colon != std::string::npos) {
-    fine = fine && parse_whole(std::string_view(text).substr(colon + 1), address.port) &&
-           address.port >= 1 && address.port <= highest_port;
+tev::ViewerAddress parse_display(const std::string& text) {
+  if (std::optional<tev::ViewerAddress> address = tev::viewer_address(text)) return *address;
+  throw WrongValue("--display", "HOST:PORT, such as 127.0.0.1:14158", text);
+}
+
+std::string parse_ip_address(const std::string& option, const std::string& text) {
+  const bool has_brackets = text.starts_with('[') && text.ends_with(']');
+  const std::string plain = has_brackets ? text.substr(1, text.size() - 2) : text;
+  in6_addr address{};
+  if (inet_pton(AF_INET6, plain.c_str(), &address) == 1) return plain;
+  if (!has_brackets && inet_pton(AF_INET, plain.c_str(), &address) == 1) return plain;
+  throw WrongValue(option, "an IP address, such as 0.0.0.0 or ::1", text);
+}
+
+std::string parse_host_name(const std::string& option, const std::string& text) {
+  constexpr std::string_view allowed =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-.";
+  if (!text.empty() && text.find_first_not_of(allowed) == std::string::npos) return text;
+  if (text.starts_with('[')) {
+    in6_addr address{};
+    if (inet_pton(AF_INET6, text.substr(1, text.size() - 2).c_str(), &address) == 1 &&
+        text.ends_with(']'))
+      return text;
   }
-  if (text.starts_with('[') && fine) {
-    fine = address.host.ends_with(']');
-    address.host = address.host.substr(1, bracket - 1);
-  }
-  if (!fine || address.host.empty())
-    throw WrongValue("--display", "HOST:PORT, such as 127.0.0.1:14158", text);
-  return address;
+  throw WrongValue(option, "the name of a machine, without a port", text);
 }
 
 std::string all_aov_names() {

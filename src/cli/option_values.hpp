@@ -57,7 +57,12 @@ int parse_threads(const std::string& text);
 int parse_sample_count(const std::string& option, const std::string& text);
 
 /// Returns what "HOST:PORT" says. Without a port it is that of the viewer tev.
-NetworkAddress parse_display(const std::string& text);
+tev::ViewerAddress parse_display(const std::string& text);
+
+/// Returns an IP address without the brackets that it may have.
+std::string parse_ip_address(const std::string& option, const std::string& text);
+/// Returns the name of a machine, or an IP address, as URLs have it.
+std::string parse_host_name(const std::string& option, const std::string& text);
 
 /// Returns "depth,normal,...".
 std::string all_aov_names();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/command_description.hpp"
+#include "tev/tev_viewer.hpp"
 
 namespace crt::cli {
 
@@ -53,12 +54,6 @@ struct PictureRequest : CommonRequest {
   bool reproducible = false;
 };
 
-/// A NetworkAddress is where a program listens.
-struct NetworkAddress {
-  std::string host;
-  int port = 0;
-};
-
 struct RenderRequest : PictureRequest {
   std::vector<std::filesystem::path> scenes;
   std::optional<FrameRange> frames;
@@ -66,12 +61,13 @@ struct RenderRequest : PictureRequest {
   std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
-  bool show = false;                      ///< in the terminal
-  std::optional<NetworkAddress> display;  ///< of a viewer that shows pictures in progress
+  bool show = false;                          ///< in the terminal
+  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress
 };
 
 struct WatchRequest : PictureRequest {
   std::filesystem::path scene;
+  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress
 };
 
 /// A FarmRequest holds what all verbs of the command take. `given` has the options by name.
@@ -144,8 +140,14 @@ struct LspRequest {};
 
 /// A StudioRequest asks for the page that shows a script while it is written.
 struct StudioRequest : CommonRequest {
-  std::filesystem::path scene;  ///< a script or a folder; empty for the current folder
-  int port = 0;                 ///< 0 takes one that is free
+  std::filesystem::path scene;       ///< a script or a folder; empty for the current folder
+  std::string listen = "127.0.0.1";  ///< an IP address without brackets
+  int port = 0;                      ///< 0 takes one that is free
+  std::vector<std::string> names;    ///< what browsers may call this machine, too
+  // Without a certificate it is not encrypted. The key may be in the same file.
+  std::filesystem::path tls_certificate;
+  std::filesystem::path tls_key;
+  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress, too
   int threads = 0;
   bool embed = false;  ///< in a frame of another page, until standard input ends
 };

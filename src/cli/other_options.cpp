@@ -178,13 +178,48 @@ CommandTable lsp_table() {
                     .take = [](const std::string&) {}}}};
 }
 
+namespace {
+
+/// Adds how browsers on other machines reach the studio.
+void add_network_rows(std::vector<OptionRow>& rows, StudioRequest& request) {
+  rows.push_back({.names = "--listen",
+                  .type = "ADDRESS",
+                  .help = "listens on this IP address of the machine, also for other machines; "
+                          "0.0.0.0 or :: is all it has (default: 127.0.0.1)",
+                  .take = [&request](const std::string& text) {
+                    request.listen = parse_ip_address("--listen", text);
+                  }});
+  rows.push_back({.names = "--name",
+                  .type = "HOST",
+                  .help = "lets browsers call this machine by this name, too, and prints it",
+                  .take =
+                      [&request](const std::string& text) {
+                        request.names.push_back(parse_host_name("--name", text));
+                      },
+                  .repeatable = true});
+  rows.push_back({.names = "--tls-cert",
+                  .type = "FILE",
+                  .help = "encrypts by HTTPS: a certificate in PEM, and those that lead to it",
+                  .take = into_path(request.tls_certificate)});
+  rows.push_back({.names = "--tls-key",
+                  .type = "FILE",
+                  .help = "its private key in PEM (default: in the certificate's file)",
+                  .take = into_path(request.tls_key)});
+}
+
+}  // namespace
+
 CommandTable studio_table(StudioRequest& request) {
   CommandTable table{
       .name = "studio",
       .about = "Serves a page to write a script in and to see its picture meanwhile.",
       .footer = R"(Open the address that it prints in a browser on the same machine. It
 serves until it is interrupted. The page can read and write scripts in the script's folder alone.
-docs/studio.md says how it is used, also from another machine.)",
+docs/studio.md says how it is used, also from another machine.
+
+Examples:
+  crt studio scene.crt
+  crt studio --listen 0.0.0.0 --port 8443 --tls-cert cert.pem --tls-key key.pem scene.crt)",
       .rows = {}};
   table.rows.push_back({.names = "scene",
                         .type = "SCENE.crt",
@@ -199,11 +234,13 @@ docs/studio.md says how it is used, also from another machine.)",
                               request.port > highest)
                             throw WrongValue("--port", "a whole number from 1 to 65535", text);
                         }});
+  add_network_rows(table.rows, request);
   table.rows.push_back({.names = "--embed",
                         .type = "",
                         .help = "lets pages of this machine show it in a frame, as notebooks do, "
                                 "and ends when standard input does",
                         .take = into_flag("--embed", request.embed)});
+  add_display_row(table.rows, request.display);
   add_threads_row(table.rows, request.threads);
   return table;
 }

@@ -234,7 +234,7 @@ class RenderJob {
   Reporter reporter_;
   ProgressStyle style_;
   const InterruptScope* interrupt_ = nullptr;
-  std::optional<TevViewer> viewer_;
+  std::optional<tev::TevViewer> viewer_;
   Projection projection_{};
   bool has_warned_ = false;
   std::vector<PictureReport> reports_;

@@ -148,11 +148,7 @@ CommandTable render_table(RenderRequest& request) {
                   .type = "",
                   .help = "shows the picture in the terminal, too",
                   .take = into_flag("--show", request.show)});
-  rows.push_back(
-      {.names = "--display",
-       .type = "HOST:PORT",
-       .help = "sends the picture in progress to the viewer tev, which listens there",
-       .take = [&request](const std::string& text) { request.display = parse_display(text); }});
+  add_display_row(rows, request.display);
   add_reproducible(rows, request);
   add_setting_rows(rows, request.script);
   return table;
@@ -169,6 +165,7 @@ CommandTable watch_table(WatchRequest& request) {
   add_script_rows(rows, request);
   add_threads_row(rows, request.render.threads);
   add_limits(rows, request);
+  add_display_row(rows, request.display);
   add_reproducible(rows, request);
   add_setting_rows(rows, request.script);
   return table;

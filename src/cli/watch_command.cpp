@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <crt/draft.hpp>
 #include <cstdint>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/files.hpp"
@@ -22,17 +25,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds interval{100};
 /// A draft has a pixel for so many, across and down.
 constexpr int draft_step = 8;
-
-/// Returns the scene as it is drawn in a draft.
-Scene draft_of(Scene scene) {
-  Settings& settings = scene.settings;
-  settings.width = std::max(1, settings.width / draft_step);
-  settings.height = std::max(1, settings.height / draft_step);
-  settings.supersampling = settings.dof_samples = 1;
-  settings.target_error = settings.time_budget = 0;
-  scene.camera.aperture = 0;
-  return scene;
-}
 
 /// Returns a picture with the sides of `settings` that shows another one with fewer pixels.
 Image enlarged(const Image& small, const Settings& settings) {
@@ -100,6 +92,8 @@ class Watch {
   /// Runs the script once and makes what it shows. Whatever is wrong is reported.
   void make_pictures() {
     Reporter reporter(request_);
+    // A viewer may be started, or come back, while the script is watched.
+    if (request_.display && (!viewer_ || viewer_->is_lost())) viewer_.emplace(*request_.display);
     files_.clear();
     last_look_ = Clock::now();
     has_changed_ = false;
@@ -132,24 +126,28 @@ class Watch {
     const Settings& settings = scene->settings;
     const WriteOptions how{.reproducible = request_.reproducible};
     if (std::min(settings.width, settings.height) > draft_step) {
-      const Image draft = render_one(draft_of(*scene), ProgressStyle::none, reporter);
-      enlarged(draft, settings).write(output_, how);
+      const Image draft = render_one(draft_of(*scene, draft_step), ProgressStyle::none, reporter);
+      Image large = enlarged(draft, settings);
+      large.write(output_, how);
+      if (viewer_) viewer_->show(output_.string(), std::move(large));
       reporter.note(fmt::format("{}: a draft, {:.2f} s", output_.string(), watch.seconds()));
     }
-    Image image = render_one(*scene, style_, reporter);
+    Image image = render_one(*scene, style_, reporter, viewer_ ? &*viewer_ : nullptr);
     image.stats().parse_seconds = parse_seconds;
     image.write(output_, how);
     reporter.note(summary(output_.string(), image));
     if (const std::optional<std::string> warning = warning_of(image)) reporter.warn(*warning);
   }
 
-  Image render_one(const Scene& scene, ProgressStyle style, Reporter& reporter) {
+  Image render_one(const Scene& scene, ProgressStyle style, Reporter& reporter,
+                   tev::TevViewer* viewer = nullptr) {
     return render_scene(scene,
                         {.request = request_,
                          .picture = output_,
                          .name = output_.string(),
                          .style = style,
-                         .go_on = [this] { return !is_over(); }},
+                         .go_on = [this] { return !is_over(); },
+                         .viewer = viewer},
                         reporter);
   }
 
@@ -170,6 +168,7 @@ class Watch {
   ProgressStyle style_;
   fs::path output_;
   WatchedFiles files_;
+  std::optional<tev::TevViewer> viewer_;
   const InterruptScope* interrupt_ = nullptr;
   Clock::time_point last_look_{};
   bool has_changed_ = false;

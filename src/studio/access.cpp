@@ -1,19 +1,53 @@
 #include "studio/access.hpp"
 
+#include <optional>
 #include <random>
 
 namespace crt::studio {
 
-bool is_own_host(std::string_view host, std::string_view address, std::uint16_t port) {
-  const std::string end = ":" + std::to_string(port);
-  if (!host.ends_with(end)) return false;
-  host.remove_suffix(end.size());
-  return host == "localhost" || host == "127.0.0.1" || host == "[::1]" || host == address;
+namespace {
+
+std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
 }
 
-bool is_own_origin(std::string_view origin, std::string_view host) {
-  constexpr std::string_view scheme = "http://";
-  return origin.empty() || (origin.starts_with(scheme) && origin.substr(scheme.size()) == host);
+}  // namespace
+
+HostNames::HostNames(const IpAddress& listened, const std::vector<std::string>& names)
+    : listened_(listened) {
+  for (const std::string& name : names) names_.insert(in_lower_case(name));
+  if (listened.is_loopback() || listened.is_any()) names_.insert("localhost");
+  if (!listened.is_loopback()) names_.insert(in_lower_case(machine_name()));
+  names_.erase("");
+}
+
+bool HostNames::has(std::string_view host, std::uint16_t port, std::uint16_t usual_port) const {
+  const std::string end = ":" + std::to_string(port);
+  if (host.ends_with(end)) {
+    host.remove_suffix(end.size());
+  } else if (port != usual_port) {
+    return false;
+  }
+  return has_name(host);
+}
+
+bool HostNames::has_name(std::string_view name) const {
+  if (names_.contains(in_lower_case(name))) return true;
+  if (!name.starts_with('[') && name.find(':') != std::string_view::npos) return false;
+  const std::optional<IpAddress> address = IpAddress::parse(name);
+  if (!address) return false;
+  if (listened_.is_any()) return true;
+  return *address == listened_ || (listened_.is_loopback() && address->is_loopback());
+}
+
+bool is_own_origin(std::string_view origin, std::string_view scheme, std::string_view host) {
+  if (origin.empty()) return true;
+  if (!origin.starts_with(scheme)) return false;
+  origin.remove_prefix(scheme.size());
+  return origin.starts_with("://") && origin.substr(3) == host;
 }
 
 bool is_token(std::string_view given, std::string_view token) {

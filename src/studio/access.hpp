@@ -2,18 +2,38 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "studio/ip_address.hpp"
 
 namespace crt::studio {
 
-/// Says whether a request's Host names this server as it is reached on this machine. A page whose
-/// own name was made to lead here (DNS rebinding) has another one.
-bool is_own_host(std::string_view host, std::string_view address, std::uint16_t port);
+/// HostNames are what this server is called in the Host of a request. A page whose own name was
+/// made to lead here (DNS rebinding) calls it by another name. One that was loaded by an address
+/// came from there, so where all addresses are listened on, any will do.
+class HostNames {
+ public:
+  /// Takes the address that is listened on, and names beside those that follow from it.
+  HostNames(const IpAddress& listened, const std::vector<std::string>& names);
 
-/// Says whether an Origin is that of the server's own page. Programs that are no browsers send
-/// none.
-bool is_own_origin(std::string_view origin, std::string_view host);
+  /// Says whether a Host, with its port, names the server. It has no port if that is the usual one
+  /// of the scheme.
+  bool has(std::string_view host, std::uint16_t port, std::uint16_t usual_port) const;
+
+ private:
+  bool has_name(std::string_view name) const;
+
+  IpAddress listened_;
+  std::set<std::string, std::less<>> names_;
+};
+
+/// Says whether an Origin is that of the server's own page, whose scheme is "http" or "https".
+/// Programs that are no browsers send none.
+bool is_own_origin(std::string_view origin, std::string_view scheme, std::string_view host);
 
 /// Compares tokens in a time that tells nothing about where they differ.
 bool is_token(std::string_view given, std::string_view token);

@@ -1,19 +1,9 @@
 #include "studio/draft.hpp"
 
-#include <algorithm>
+#include <crt/draft.hpp>
 #include <utility>
 
 namespace crt::studio {
-
-Scene draft_of(Scene scene, int step) {
-  Settings& settings = scene.settings;
-  settings.width = std::max(1, settings.width / step);
-  settings.height = std::max(1, settings.height / step);
-  settings.supersampling = settings.dof_samples = 1;
-  settings.target_error = settings.time_budget = 0;
-  scene.camera.aperture = 0;
-  return scene;
-}
 
 Scene geometry_of(Scene scene) {
   scene = draft_of(std::move(scene), 1);

@@ -50,8 +50,46 @@ std::optional<std::string> read_some(const fs::path& file) {
   return text;
 }
 
-fs::path typed_file_of(const fs::path& script) {
-  return script.parent_path() / ("." + script.filename().string() + ".typed");
+constexpr std::string_view typed_ending = ".typed";
+constexpr std::size_t longest_page = 32;
+
+fs::path typed_file_of(const fs::path& script, std::string_view page) {
+  if (!is_page_name(page))
+    throw Error(ErrorCode::invalid_argument, "'" + std::string(page) + "' is no name of a page");
+  std::string name = "." + script.filename().string() + ".";
+  return script.parent_path() / name.append(page).append(typed_ending);
+}
+
+/// A TypedFile has what was kept of a page.
+struct TypedFile {
+  fs::path path;
+  std::string page;
+  fs::file_time_type time;
+};
+
+/// Lists what was kept beside a script which is not newer, the newest first.
+std::vector<TypedFile> typed_files_of(const fs::path& script) {
+  std::vector<TypedFile> files;
+  std::error_code failed;
+  const fs::file_time_type saved = fs::last_write_time(script, failed);
+  const bool is_saved = !failed;
+  const std::string beginning = "." + script.filename().string() + ".";
+  for (fs::directory_iterator place(script.parent_path(), failed), end; !failed && place != end;
+       place.increment(failed)) {
+    std::string name = place->path().filename().string();
+    if (!name.starts_with(beginning) || !name.ends_with(typed_ending)) continue;
+    if (name.size() < beginning.size() + typed_ending.size()) continue;
+    name.resize(name.size() - typed_ending.size());
+    std::string page = name.substr(beginning.size());
+    std::error_code unknown;
+    if (!is_page_name(page) || !fs::is_regular_file(place->symlink_status(unknown))) continue;
+    const fs::file_time_type time = place->last_write_time(unknown);
+    if (!unknown && !(is_saved && saved > time))
+      files.push_back({place->path(), std::move(page), time});
+  }
+  std::sort(files.begin(), files.end(),
+            [](const TypedFile& a, const TypedFile& b) { return a.time > b.time; });
+  return files;
 }
 
 /// Says whether something may be written to or removed: it is no link that may lead elsewhere.
@@ -62,6 +100,11 @@ bool is_plain_or_missing(const fs::path& file) {
 }
 
 }  // namespace
+
+bool is_page_name(std::string_view page) {
+  return !page.empty() && page.size() <= longest_page &&
+         page.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
 
 Folder::Folder(const fs::path& path) {
   std::error_code failed;
@@ -99,32 +142,44 @@ std::string Folder::read(std::string_view name) const {
 }
 
 void Folder::write(std::string_view name, std::string_view text) const {
-  write_file(file_of(name), text);
+  const fs::path script = file_of(name);
+  const std::vector<TypedFile> typed = typed_files_of(script);
+  write_file(script, text);
+  std::error_code failed;
+  const fs::file_time_type saved = fs::last_write_time(script, failed);
+  if (failed) return;
+  for (const TypedFile& file : typed) fs::last_write_time(file.path, saved, failed);
 }
 
-void Folder::keep_typed(std::string_view name, std::string_view text) const {
-  const fs::path file = typed_file_of(file_of(name));
+void Folder::keep_typed(std::string_view name, std::string_view page, std::string_view text) const {
+  const fs::path file = typed_file_of(file_of(name), page);
   if (!is_plain_or_missing(file))
     throw Error(ErrorCode::io, "'" + file.string() + "' is no plain file");
   write_file(file, text);
 }
 
-std::optional<std::string> Folder::typed(std::string_view name) const {
-  const fs::path script = file_of(name);
-  const fs::path file = typed_file_of(script);
-  std::error_code failed;
-  if (!fs::is_regular_file(fs::symlink_status(file, failed))) return std::nullopt;
-  const fs::file_time_type kept = fs::last_write_time(file, failed);
-  if (failed) return std::nullopt;
-  const fs::file_time_type saved = fs::last_write_time(script, failed);
-  if (!failed && saved > kept) return std::nullopt;
-  std::optional<std::string> text = read_some(file);
-  if (!text || text->size() > longest_script || !is_utf8(*text)) return std::nullopt;
-  return text;
+std::optional<TypedText> Folder::typed(
+    std::string_view name, const std::function<bool(const TypedText&)>& is_wanted) const {
+  for (TypedFile& file : typed_files_of(file_of(name))) {
+    std::optional<std::string> text = read_some(file.path);
+    if (!text || text->size() > longest_script || !is_utf8(*text)) continue;
+    TypedText typed{std::move(file.page), std::move(*text)};
+    if (is_wanted(typed)) return typed;
+  }
+  return std::nullopt;
 }
 
-void Folder::forget_typed(std::string_view name) const {
-  const fs::path file = typed_file_of(file_of(name));
+void Folder::adopt_typed(std::string_view name, std::string_view from, std::string_view to) const {
+  const fs::path script = file_of(name);
+  const fs::path source = typed_file_of(script, from);
+  const fs::path target = typed_file_of(script, to);
+  std::error_code failed;
+  if (is_plain_or_missing(source) && is_plain_or_missing(target))
+    fs::rename(source, target, failed);
+}
+
+void Folder::forget_typed(std::string_view name, std::string_view page) const {
+  const fs::path file = typed_file_of(file_of(name), page);
   std::error_code failed;
   if (is_plain_or_missing(file)) fs::remove(file, failed);
 }

@@ -3,12 +3,22 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace crt::studio {
+
+/// A TypedText was typed in a page and not saved.
+struct TypedText {
+  std::string page;
+  std::string text;
+};
+
+/// Says whether pages may have this name: at most 32 hexadecimal digits.
+bool is_page_name(std::string_view page);
 
 class Folder {
  public:
@@ -25,16 +35,22 @@ class Folder {
   /// long or no text of UTF-8.
   std::string read(std::string_view name) const;
 
-  /// Writes a script, whole or not at all. Throws Error as file_of() does, and io.
+  /// Writes a script, whole or not at all. What pages have kept beside it stays newer than the
+  /// script, if it was. Throws Error as file_of() does, and io.
   void write(std::string_view name, std::string_view text) const;
 
-  /// Keeps beside a script what was typed and not saved, in `.NAME.crt.typed`. It throws as
-  /// write().
-  void keep_typed(std::string_view name, std::string_view text) const;
-  /// Returns what was kept beside a script if that is not newer. Throws Error as file_of() does.
-  std::optional<std::string> typed(std::string_view name) const;
-  /// Removes what was kept beside a script, if there is anything. Throws Error as file_of() does.
-  void forget_typed(std::string_view name) const;
+  // Each page keeps beside a script what was typed and not saved, in `.NAME.crt.PAGE.typed`. All of
+  // these throw Error as file_of() does, and invalid_argument for what is no name of a page.
+
+  /// Writes what was typed in a page. It throws as write(), too.
+  void keep_typed(std::string_view name, std::string_view page, std::string_view text) const;
+  /// Returns the newest text that was kept and is wanted, and that the script is not newer than.
+  std::optional<TypedText> typed(std::string_view name,
+                                 const std::function<bool(const TypedText&)>& is_wanted) const;
+  /// Gives a page what another one has kept, in place of its own.
+  void adopt_typed(std::string_view name, std::string_view from, std::string_view to) const;
+  /// Removes what was kept of a page, if there is anything.
+  void forget_typed(std::string_view name, std::string_view page) const;
 
   /// Lists the scripts in the folder and those in it, in the order of their names.
   std::vector<std::string> scripts() const;

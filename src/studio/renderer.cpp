@@ -1,6 +1,7 @@
 #include "studio/renderer.hpp"
 
 #include <algorithm>
+#include <crt/draft.hpp>
 #include <crt/error.hpp>
 #include <crt/job.hpp>
 #include <new>
@@ -296,7 +297,11 @@ void Renderer::render_whole() {
     }
     if (Clock::now() - last_look < look_interval) continue;
     say(Phase::rendering, job.progress());
-    if (may_send() && !job.finished()) send(PictureKind::progress, job.snapshot());
+    if (may_send() && !job.finished()) {
+      const Image image = job.snapshot();
+      send(PictureKind::progress, image);
+      if (events_.colors && !is_geometry) events_.colors(revision_, image, false);
+    }
     last_look = Clock::now();
   }
   try {
@@ -315,6 +320,7 @@ void Renderer::finish(const std::shared_ptr<const Image>& image) {
   }
   send(is_part ? PictureKind::progress : PictureKind::final, *image);
   events_.finished(revision_, *image);
+  if (events_.colors && !is_geometric(options_.channel)) events_.colors(revision_, *image, true);
   say(Phase::done, 1);
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "studio/access.hpp"
 #include "studio/analyst.hpp"
 #include "studio/messages.hpp"
 #include "studio/typed_keeper.hpp"
@@ -47,9 +48,11 @@ std::string with_wide_line_ends(const std::string& text) {
 class StudioClient : public ViewClient {
  public:
   StudioClient(std::shared_ptr<Connection> connection, std::shared_ptr<const Folder> folder,
-               const StudioOptions& options)
-      : ViewClient(std::move(connection), options.threads),
+               std::shared_ptr<OpenPages> pages, const StudioOptions& options)
+      : ViewClient(std::move(connection), options.threads, options.show),
         folder_(std::move(folder)),
+        pages_(std::move(pages)),
+        page_(make_token()),
         analyst_([this](const Analysis& analysis) { send(tokens_message(analysis)); },
                  [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
         keeper_(folder_) {
@@ -58,8 +61,7 @@ class StudioClient : public ViewClient {
     on("view", [this](const json& message) { view(message); });
     on("ask", [this](const json& message) { ask(message); });
     on("save", [this](const json& message) { save(message); });
-    on("forget",
-       [this](const json& message) { keeper_.forget(message.at("script").get<std::string>()); });
+    on("forget", [this](const json& message) { forget(message); });
     on("look", [this](const json&) { look(); });
     send({{"type", "hello"},
           {"version", version()},
@@ -68,19 +70,40 @@ class StudioClient : public ViewClient {
           {"scripts", folder_->scripts()},
           {"objects", objects_json()}});
   }
+  ~StudioClient() override { pages_->remove(file_, page_); }
+  StudioClient(const StudioClient&) = delete;
+  StudioClient& operator=(const StudioClient&) = delete;
 
  private:
   void open(const json& message) {
     const auto name = message.at("script").get<std::string>();
+    std::string page = message.value("page", "");
+    if (page.empty()) page = make_token();
+    if (!is_page_name(page))
+      throw Error(ErrorCode::invalid_argument, "a page is called by up to 32 hexadecimal digits");
     on_disk_ = folder_->read(name);
-    script_ = name;
-    has_typed_ = false;
     const std::string text = with_plain_line_ends(*on_disk_);
+    enter(name, page);
+    has_typed_ = false;
+    offered_ = folder_->typed(name, [&](const TypedText& typed) {
+      return typed.text != text && !pages_->has(file_, typed.page);
+    });
     json opened = {{"type", "opened"}, {"script", name}, {"text", text}};
-    const std::optional<std::string> typed = folder_->typed(name);
-    if (typed && *typed != text) opened["typed"] = *typed;
+    if (offered_) opened["typed"] = offered_->text;
     send(opened);
   }
+
+  /// Makes a script that of this page.
+  void enter(const std::string& script, const std::string& page) {
+    pages_->remove(file_, page_);
+    script_ = script;
+    file_ = script.empty() ? "" : folder_->file_of(script).string();
+    page_ = page;
+    pages_->add(file_, page_);
+  }
+
+  /// Says whether what was offered is still nobody's.
+  bool has_offer() const { return offered_ && !pages_->has(file_, offered_->page); }
 
   void take_text(const json& message) {
     auto text = std::make_shared<const std::string>(message.at("text").get<std::string>());
@@ -97,14 +120,23 @@ class StudioClient : public ViewClient {
     renderer().set_script(revision, std::move(options));
   }
 
-  /// Keeps what is typed until it is what the file has. What others typed stays until then.
+  /// Keeps what is typed until it is what the file has. What was offered is adopted by typing it.
   void keep_typed() {
-    if (!on_disk_ || *text_ != with_plain_line_ends(*on_disk_)) {
-      keeper_.keep(script_, text_);
-      has_typed_ = true;
-    } else if (has_typed_) {
-      keeper_.forget(script_);
+    has_typed_ = !on_disk_ || *text_ != with_plain_line_ends(*on_disk_);
+    if (!has_typed_) return keeper_.forget(script_, page_);
+    if (has_offer() && offered_->text == *text_) {
+      folder_->adopt_typed(script_, offered_->page, page_);
+      offered_.reset();
     }
+    keeper_.keep(script_, page_, text_);
+  }
+
+  /// Discards what was offered, or else what was typed here.
+  void forget(const json& message) {
+    const auto name = message.at("script").get<std::string>();
+    if (name != script_ || !offered_) return keeper_.forget(name, page_);
+    if (has_offer()) folder_->forget_typed(name, offered_->page);
+    offered_.reset();
   }
 
   void view(const json& message) {
@@ -150,9 +182,9 @@ class StudioClient : public ViewClient {
                    {"message", "'" + name + "' was changed by another program"}});
     }
     folder_->write(name, text);
-    keeper_.forget(name);
+    keeper_.forget(name, page_);
     has_typed_ = false;
-    script_ = name;
+    enter(name, page_);
     on_disk_ = std::move(text);
     send({{"type", "saved"}, {"script", name}, {"scripts", folder_->scripts()}});
   }
@@ -179,14 +211,19 @@ class StudioClient : public ViewClient {
     }
     if (now == *on_disk_) return;
     on_disk_ = std::move(now);
+    if (has_typed_) keep_typed();  // which is newer than the file again
     send({{"type", "changed"}, {"script", script_}, {"text", with_plain_line_ends(*on_disk_)}});
   }
 
   const std::shared_ptr<const Folder> folder_;
+  const std::shared_ptr<OpenPages> pages_;
+  std::string page_;  ///< what the page calls itself, or a name that it was given
   std::string script_;
+  std::string file_;                    ///< the script's, without links
+  std::optional<TypedText> offered_{};  ///< when the script was opened
   std::optional<std::string> on_disk_;  ///< what the script's file had
   std::shared_ptr<const std::string> text_;
-  bool has_typed_ = false;  ///< since the script was opened or saved
+  bool has_typed_ = false;  ///< the text is kept, as it is not what the file has
   Analyst analyst_;
   TypedKeeper keeper_;
 };
@@ -195,8 +232,10 @@ class StudioClient : public ViewClient {
 
 std::unique_ptr<Client> make_studio_client(std::shared_ptr<Connection> connection,
                                            std::shared_ptr<const Folder> folder,
+                                           std::shared_ptr<OpenPages> pages,
                                            const StudioOptions& options) {
-  return std::make_unique<StudioClient>(std::move(connection), std::move(folder), options);
+  return std::make_unique<StudioClient>(std::move(connection), std::move(folder), std::move(pages),
+                                        options);
 }
 
 }  // namespace crt::studio

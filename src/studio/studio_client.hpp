@@ -2,10 +2,13 @@
 // pictures. The messages are in docs/studio.md.
 #pragma once
 
+#include <crt/image.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "studio/folder.hpp"
+#include "studio/open_pages.hpp"
 #include "studio/web_server.hpp"
 
 namespace crt::studio {
@@ -13,10 +16,14 @@ namespace crt::studio {
 struct StudioOptions {
   std::string script;  ///< what the page opens, relative to the folder, or empty
   int threads = 0;
+  /// Gets the pictures of all pages, too, in progress and whole, if it is not empty. Any thread
+  /// calls it.
+  std::function<void(const std::string& name, const Image&, bool is_whole)> show{};
 };
 
 std::unique_ptr<Client> make_studio_client(std::shared_ptr<Connection> connection,
                                            std::shared_ptr<const Folder> folder,
+                                           std::shared_ptr<OpenPages> pages,
                                            const StudioOptions& options);
 
 }  // namespace crt::studio

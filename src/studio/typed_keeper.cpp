@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <crt/error.hpp>
-#include <utility>
 
 namespace crt::studio {
 
@@ -25,19 +24,20 @@ TypedKeeper::~TypedKeeper() {
   thread_.join();
 }
 
-void TypedKeeper::keep(std::string script, std::shared_ptr<const std::string> text) {
+void TypedKeeper::keep(std::string script, std::string page,
+                       std::shared_ptr<const std::string> text) {
   const std::lock_guard lock(mutex_);
-  waiting_[std::move(script)] = std::move(text);
+  waiting_[{std::move(script), std::move(page)}] = std::move(text);
   changed_.notify_all();
 }
 
-void TypedKeeper::forget(const std::string& script) {
+void TypedKeeper::forget(const std::string& script, const std::string& page) {
   const std::lock_guard writing(writing_);
   {
     const std::lock_guard lock(mutex_);
-    waiting_.erase(script);
+    waiting_.erase({script, page});
   }
-  folder_->forget_typed(script);
+  folder_->forget_typed(script, page);
 }
 
 void TypedKeeper::work() {
@@ -55,14 +55,14 @@ void TypedKeeper::work() {
 
 void TypedKeeper::write_all() {
   const std::lock_guard writing(writing_);
-  std::map<std::string, std::shared_ptr<const std::string>> texts;
+  Texts texts;
   {
     const std::lock_guard lock(mutex_);
     texts.swap(waiting_);
   }
-  for (const auto& [script, text] : texts) {
+  for (const auto& [place, text] : texts) {
     try {
-      folder_->keep_typed(script, *text);
+      folder_->keep_typed(place.first, place.second, *text);
     } catch (const Error&) {
       // The folder takes no file. The browser keeps the text, too.
     }

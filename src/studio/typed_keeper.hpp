@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "studio/folder.hpp"
 
@@ -21,12 +22,16 @@ class TypedKeeper {
   TypedKeeper(const TypedKeeper&) = delete;
   TypedKeeper& operator=(const TypedKeeper&) = delete;
 
-  /// Keeps the newest text of a script soon. What cannot be written is not kept: saving says why.
-  void keep(std::string script, std::shared_ptr<const std::string> text);
-  /// Removes what is kept of a script, at once.
-  void forget(const std::string& script);
+  /// Keeps a page's newest text of a script soon. What cannot be written is not kept: saving says
+  /// why.
+  void keep(std::string script, std::string page, std::shared_ptr<const std::string> text);
+  /// Removes what is kept of a script for a page, at once.
+  void forget(const std::string& script, const std::string& page);
 
  private:
+  /// By the script and the page.
+  using Texts = std::map<std::pair<std::string, std::string>, std::shared_ptr<const std::string>>;
+
   void work();
   void write_all();
 
@@ -34,7 +39,7 @@ class TypedKeeper {
   std::mutex writing_;  ///< is held while files change
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<std::string, std::shared_ptr<const std::string>> waiting_;  ///< by the script
+  Texts waiting_;
   bool is_ended_ = false;
   std::thread thread_;
 };

@@ -2,6 +2,7 @@
 
 #include <crt/error.hpp>
 #include <crt/validate.hpp>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -14,8 +15,8 @@ namespace crt::studio {
 
 using nlohmann::json;
 
-ViewClient::ViewClient(std::shared_ptr<Connection> connection, int threads)
-    : connection_(std::move(connection)), renderer_(events(), threads) {
+ViewClient::ViewClient(std::shared_ptr<Connection> connection, int threads, Show show)
+    : connection_(std::move(connection)), renderer_(events(std::move(show)), threads) {
   on("camera", [this](const json& message) { set_camera(message); });
   on("acknowledge", [this](const json& message) {
     renderer_.acknowledge(message.at("picture").get<std::uint32_t>());
@@ -50,16 +51,24 @@ void ViewClient::receive(std::string_view text) {
   }
 }
 
-RenderEvents ViewClient::events() {
-  return {.picture = [this](const EncodedPicture& picture) { send_picture(picture); },
-          .state = [this](const RenderState& state) { send(state_message(state)); },
-          .scene = [this](const View& view) { send(scene_message(view)); },
-          .finished = [this](const Revision& revision,
-                             const Image& image) { send(finished_message(revision, image)); },
-          .print =
-              [this](const std::string& line) {
-                send({{"type", "print"}, {"line", line}});
-              }};
+RenderEvents ViewClient::events(Show show) {
+  RenderEvents events{
+      .picture = [this](const EncodedPicture& picture) { send_picture(picture); },
+      .state = [this](const RenderState& state) { send(state_message(state)); },
+      .scene = [this](const View& view) { send(scene_message(view)); },
+      .finished = [this](const Revision& revision,
+                         const Image& image) { send(finished_message(revision, image)); },
+      .print =
+          [this](const std::string& line) {
+            send({{"type", "print"}, {"line", line}});
+          }};
+  if (show) {
+    events.colors = [show = std::move(show)](const Revision& revision, const Image& image,
+                                             bool is_whole) {
+      show(std::filesystem::path(revision.name).filename().string(), image, is_whole);
+    };
+  }
+  return events;
 }
 
 void ViewClient::send(const json& message) const {

@@ -17,7 +17,11 @@ namespace crt::studio {
 
 class ViewClient : public Client {
  public:
-  ViewClient(std::shared_ptr<Connection> connection, int threads);
+  /// Takes a picture that is rendered, under its script's name: in progress, or whole.
+  using Show = std::function<void(const std::string& name, const Image&, bool is_whole)>;
+
+  /// `show` may be empty. The renderer's thread calls it.
+  ViewClient(std::shared_ptr<Connection> connection, int threads, Show show = {});
 
   void receive(std::string_view text) override;
 
@@ -31,7 +35,7 @@ class ViewClient : public Client {
   Renderer& renderer() { return renderer_; }
 
  private:
-  RenderEvents events();
+  RenderEvents events(Show show);
   void send_picture(const EncodedPicture& picture);
   void complain(const std::string& why, const nlohmann::json& message) const;
   void set_camera(const nlohmann::json& message);

@@ -1,5 +1,5 @@
-// The web server gives the page's files to browsers on this machine, and connects them with the
-// studio by WebSocket. It lets nobody in who does not know the token, nor pages of other origins.
+// The web server gives the page's files to browsers, and connects them with the studio by
+// WebSocket. It lets nobody in who does not know the token, nor pages of other origins.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace crt::studio {
 
@@ -34,10 +35,18 @@ struct PageFile {
   std::string_view type;
 };
 
+/// A Transport says how bytes go between the server and browsers.
+class Transport;
+
 struct WebServerOptions {
+  /// This is an IP address of the machine. 0.0.0.0 and :: stand for all of them.
   std::string address = "127.0.0.1";
   /// 0 lets the system choose.
   std::uint16_t port = 0;
+  /// Browsers may call the server by these names, beside those that follow from the address.
+  std::vector<std::string> names{};
+  /// By this transport bytes go, as tls.hpp has one. Without it they are not encrypted.
+  std::shared_ptr<const Transport> transport{};
   std::string token;
   std::map<std::string, PageFile, std::less<>> files{};  ///< by the path, "/" too
   /// SIGINT and SIGTERM end run(). A program that has signals of its own leaves them alone.
@@ -46,6 +55,7 @@ struct WebServerOptions {
   bool ends_with_input = false;
   /// Pages of this machine may show the page in a frame, as notebooks do.
   bool may_be_framed = false;
+  /// Where there are more, one of those ends that have not shown the token.
   std::size_t most_connections = 64;
   std::size_t most_clients = 16;
   std::size_t longest_message = std::size_t{16} << 20;
@@ -55,8 +65,8 @@ class WebServer {
  public:
   using MakeClient = std::function<std::unique_ptr<Client>(std::shared_ptr<Connection>)>;
 
-  /// Listens at once, and takes note of signals from then on if they are to end it. Throws Error
-  /// (io) if the address or port cannot be had.
+  /// Listens at once, and takes note of signals from then on if they are to end it. Throws Error:
+  /// io if the address or port cannot be had, invalid_argument if the address is none.
   WebServer(const WebServerOptions& options, MakeClient make_client);
   ~WebServer();
   WebServer(const WebServer&) = delete;

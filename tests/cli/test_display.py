@@ -1,12 +1,13 @@
-"""`crt render --display` sends pictures to a viewer. A stand-in for the viewer takes its messages
-apart, and must end with the picture that the same run has written."""
+"""`crt render` and `crt watch` send pictures to a viewer by `--display`. It must end with the
+picture that the same run has written."""
 
 import os
 import pathlib
 import re
+import signal
 import socket
-import struct
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -16,9 +17,11 @@ import numpy as np
 
 import crt
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from viewer import Viewer
+
 COMMAND = os.environ["CRT_COMMAND"]
 SECONDS = 60
-CHANNELS = ["R", "G", "B", "A"]
 BALL = """Settings {
     width -> %d height -> %d supersampling -> %d
     background -> Background { color -> rgba(0.2, 0.4, 0.6, 0.5) }
@@ -28,83 +31,6 @@ Scene { for (i in range(0, 60)) {
     Sphere { center -> vec3(2 * sin(i), 2 * cos(2 * i), 0.05 * i) radius -> 0.4
              material -> Material { reflectivity -> 0.5 } } } }
 """
-
-
-class Message:
-    """A Message is read from its begin to its end."""
-
-    def __init__(self, content):
-        self.content = content
-        self.place = 0
-
-    def take(self, layout):
-        numbers = struct.unpack_from("<" + layout, self.content, self.place)
-        self.place += struct.calcsize("<" + layout)
-        return numbers
-
-    def text(self):
-        end = self.content.index(0, self.place)
-        text = self.content[self.place : end].decode()
-        self.place = end + 1
-        return text
-
-    def channels(self):
-        (count,) = self.take("i")
-        return [self.text() for _ in range(count)]
-
-
-class Viewer(threading.Thread):
-    """A Viewer keeps what it is sent, as tev does."""
-
-    def __init__(self):
-        super().__init__()
-        self.server = socket.create_server(("127.0.0.1", 0))
-        self.port = self.server.getsockname()[1]
-        self.pictures = {}
-        self.updates = 0
-        self.incomplete = 0  # pictures with rows that are not rendered
-        self.failure = None
-
-    def run(self):
-        try:
-            self.server.settimeout(SECONDS)
-            connection, _ = self.server.accept()
-            connection.settimeout(SECONDS)
-            with connection, connection.makefile("rb") as stream:
-                while head := stream.read(4):
-                    (length,) = struct.unpack("<I", head)
-                    content = stream.read(length - 4)
-                    if len(content) == length - 4:  # the last may be cut off by an interrupt
-                        self.show(Message(content))
-        except (AssertionError, OSError, struct.error, ValueError) as failure:
-            self.failure = failure
-        finally:
-            self.server.close()
-
-    def show(self, message):
-        kind, focus = message.take("BB")
-        name = message.text()
-        if kind == 4:
-            assert focus == 1 and name not in self.pictures
-            width, height = message.take("ii")
-            assert message.channels() == CHANNELS
-            self.pictures[name] = np.full((height, width, 4), np.nan, np.float32)
-        else:
-            assert kind == 6 and focus == 0, kind
-            assert message.channels() == CHANNELS
-            x, y, width, height = message.take("iiii")
-            offsets, strides = message.take("4q"), message.take("4q")
-            floats = np.frombuffer(message.content, "<f4", offset=message.place)
-            assert len(floats) == width * height * 4
-            message.place = len(message.content)
-            part = self.pictures[name][y : y + height, x : x + width]
-            assert part.shape == (height, width, 4), part.shape
-            for channel in range(4):
-                values = floats[offsets[channel] :: strides[channel]]
-                part[:, :, channel] = values.reshape(height, width)
-            self.updates += 1
-            self.incomplete += bool((part[:, :, 3] == 0).any())
-        assert message.place == len(message.content)
 
 
 class Display(unittest.TestCase):
@@ -203,6 +129,56 @@ class Display(unittest.TestCase):
             run = self.render("--display", wrong)
             self.assertEqual(run.returncode, 2, wrong)
             self.assertTrue(re.search("--display needs HOST:PORT", run.stderr), run.stderr)
+
+    # ---- crt watch
+
+    def watch(self, port):
+        """Watches the script until the test ends. What it says goes to the file `said`."""
+        with open(self.folder / "said", "w", encoding="utf-8") as said:
+            process = subprocess.Popen(
+                [COMMAND, "watch", "a.crt", "-o", "a.exr", "--display", f"127.0.0.1:{port}"],
+                cwd=self.folder, stderr=said,
+            )
+        self.addCleanup(process.wait, SECONDS)
+        self.addCleanup(process.terminate)
+        return process
+
+    def wait_for(self, count, text):
+        """Waits until `crt watch` has said something so many times."""
+        end = time.monotonic() + SECONDS
+        while (self.folder / "said").read_text().count(text) < count:
+            self.assertLess(time.monotonic(), end, (self.folder / "said").read_text())
+            time.sleep(0.02)
+
+    def test_each_picture_that_is_watched_goes_to_the_viewer(self):
+        self.write()
+        viewer = Viewer()
+        viewer.start()
+        process = self.watch(viewer.port)
+        self.wait_for(1, "pixels")
+        np.testing.assert_array_equal(viewer.pictures["a.exr"], self.pixels("a.exr"))
+        before = self.pixels("a.exr")
+        (self.folder / "a.crt").write_text(BALL.replace("0.4", "0.5", 1) % (200, 150, 2))
+        self.wait_for(2, "pixels")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(SECONDS), 0)
+        viewer.join(SECONDS)
+        self.assertIsNone(viewer.failure)
+        np.testing.assert_array_equal(viewer.pictures["a.exr"], self.pixels("a.exr"))
+        self.assertTrue((self.pixels("a.exr") != before).any())
+
+    def test_a_viewer_may_be_started_while_a_script_is_watched(self):
+        self.write()
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            port = server.getsockname()[1]
+        self.watch(port)
+        self.wait_for(1, "pixels")
+        self.assertIn("warning: no viewer", (self.folder / "said").read_text())
+        viewer = Viewer(port)
+        viewer.start()
+        self.write(210, 150)
+        self.wait_for(2, "pixels")
+        np.testing.assert_array_equal(viewer.pictures["a.exr"], self.pixels("a.exr"))
 
 
 if __name__ == "__main__":

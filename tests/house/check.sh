@@ -66,6 +66,9 @@ check_layers() {
     'src/studio/*' 'src/capi/*' 'src/cli/*'
   # Anybody may see what is about words, which sees nothing.
   lines_with '^#include [<"](crt|core|lang|format|service|lsp|studio|cli|capi)/' 'src/text/*'
+  # The command and the studio may see what speaks with a viewer, which sees the public headers.
+  lines_with '^#include [<"](lang|farm|cli|capi|format|service|source|lsp|studio)/' 'src/tev/*'
+  lines_with '^#include [<"]tev/' "${code[@]}" | without '^src/(tev/|cli/|studio/main\.cpp)'
   # The front end is seen by what lays scripts out and by what serves editors, and these by the
   # command, each by one header. The studio sees the public headers alone.
   lines_with '^#include [<"](format|service|lsp|studio|cli|capi)/' 'src/lang/*'
@@ -90,7 +93,7 @@ only_in() {
 # What the public headers offer is all that lang, the command and the examples may see.
 check_public_only() {
   lines_with '^#include [<"]core/' 'src/lang/*' 'src/format/*' 'src/service/*' 'src/lsp/*' \
-    'src/studio/*' 'src/cli/*' 'src/capi/*' 'examples/*'
+    'src/studio/*' 'src/tev/*' 'src/cli/*' 'src/capi/*' 'examples/*'
   lines_with '^#include [<"](core|lang|cli|capi)/' 'include/*'
   lines_with '^#include <glm/' 'include/*' | without '<glm/vec3.hpp>'
   lines_with '^#include <(fmt|tbb|embree|OpenImageIO|CLI)' 'include/*'
@@ -211,8 +214,12 @@ lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
   without '^src/studio/(messages|view_messages|listing|scene_server)\.cpp:' |
   without '^src/studio/(studio_client|view_client)\.cpp:' |
   complain "JSON outside the sources that have to wait for it"
-lines_with '^#include <boost/' "${code[@]}" | without '^src/studio/web_server\.cpp:' |
-  complain "Boost outside src/studio/web_server.cpp: one source is enough to wait for"
+lines_with '^#include <boost/' "${code[@]}" |
+  without '^src/studio/(session\.hpp|tls\.cpp|web_server\.cpp):' |
+  complain "Boost outside the studio's server: few sources are enough to wait for"
+lines_with '^#include "studio/(session|tls)\.hpp"' "${code[@]}" |
+  without '^src/studio/(main|session|tls|web_server)\.cpp:' |
+  complain "Boost or OpenSSL seen outside the studio's server"
 tracked '*.y' '*.re' | without '^src/lang/' | complain "Bison or re2c outside src/lang"
 check_public_only | complain "Only crt/*.hpp may be seen from here"
 check_umbrella | complain "A public header is missing from crt.hpp"

@@ -7,6 +7,7 @@ import pathlib
 import re
 import signal
 import socket
+import ssl
 import struct
 import subprocess
 import tempfile
@@ -14,19 +15,36 @@ import time
 import unittest
 
 STUDIO = os.environ["CRT_STUDIO"]
+COMMAND = os.environ["CRT_COMMAND"]
 SECONDS = 60
 
 
 class Server:
-    """The studio on a folder."""
+    """The studio on a folder. `words` are more that the command passes. `certificate` is what it
+    shows by TLS, if it does."""
 
-    def __init__(self, folder, script=""):
+    def __init__(self, folder, script="", words=(), certificate=None):
         self.process = subprocess.Popen(
-            [STUDIO, str(folder), script, "0", "2"], stdout=subprocess.PIPE, text=True
+            [STUDIO, f"folder={folder}", f"script={script}", "threads=2", *words],
+            stdout=subprocess.PIPE,
+            text=True,
         )
-        line = self.process.stdout.readline()
-        found = re.search(r"http://127\.0\.0\.1:(\d+)/#token=([0-9a-f]+)", line)
-        self.port, self.token = int(found[1]), found[2]
+        self.take(self.process.stdout.readline())
+        if certificate:
+            self.tls = ssl.create_default_context(cafile=certificate)
+
+    def take(self, line):
+        """Takes the address that a server has printed."""
+        found = re.search(r"(https?)://([^/]+):(\d+)/#token=([0-9a-f]+)", line)
+        self.scheme, self.host, self.port, self.token = found[1], found[2], int(found[3]), found[4]
+        self.tls = None
+
+    def connect(self, seconds=SECONDS):
+        """Connects by TCP, and by TLS if the server has it."""
+        connection = socket.create_connection((self.host.strip("[]"), self.port), seconds)
+        if not self.tls:
+            return connection
+        return self.tls.wrap_socket(connection, server_hostname=self.host.strip("[]"))
 
     def end(self, how=signal.SIGINT):
         if self.process.poll() is None:
@@ -37,10 +55,10 @@ class Server:
 
     def request(self, target, host=None, origin=None, method="GET", more=()):
         """Sends a request. Returns the socket, the status and the rest of what came."""
-        lines = [f"{method} {target} HTTP/1.1", f"Host: {host or f'127.0.0.1:{self.port}'}"]
+        lines = [f"{method} {target} HTTP/1.1", f"Host: {host or f'{self.host}:{self.port}'}"]
         if origin:
             lines.append(f"Origin: {origin}")
-        connection = socket.create_connection(("127.0.0.1", self.port), SECONDS)
+        connection = self.connect()
         connection.sendall(("\r\n".join([*lines, *more]) + "\r\n\r\n").encode())
         data = b""
         while b"\r\n\r\n" not in data:

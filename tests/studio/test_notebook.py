@@ -28,8 +28,7 @@ class Reached(Server):
     """Reached is a server that runs already."""
 
     def __init__(self, address):
-        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/#token=([0-9a-f]+)", address)
-        self.port, self.token = int(found[1]), found[2]
+        self.take(address)
 
 
 def answers(address):

@@ -1,7 +1,6 @@
 """A program shows a scene of its own: examples/cpp/studio_scene.cpp, by the studio's protocol."""
 
 import os
-import re
 import signal
 import subprocess
 import unittest
@@ -19,9 +18,7 @@ class Program(Server):
         self.process = subprocess.Popen(
             [EXAMPLE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
-        line = self.process.stdout.readline()
-        found = re.search(r"http://127\.0\.0\.1:(\d+)/#token=([0-9a-f]+)", line)
-        self.port, self.token = int(found[1]), found[2]
+        self.take(self.process.stdout.readline())
 
     def write(self, text):
         self.process.stdin.write(text)
@@ -48,7 +45,7 @@ class Scene(unittest.TestCase):
 
     def show(self, client, text):
         """Gives the text a revision, and waits for its picture. Returns the last messages of each
-        type, which come in any order."""
+        type."""
         client.set_text(text)
         seen = {}
         while not {"analysis", "scene", "finished"} <= seen.keys():
@@ -90,6 +87,17 @@ class Scene(unittest.TestCase):
         self.program.write("7\n")
         self.show(client, client.wait("changed")["text"])
         self.assertEqual(client.picture(), first)
+
+    def test_messages_come_in_the_order_in_which_they_were_sent(self):
+        client, text, _ = self.start()
+        for _ in range(300):
+            client.set_text(text)
+            kinds = []
+            while "scene" not in kinds:
+                message = client.receive()
+                if isinstance(message, dict) and message.get("revision") == client.revision:
+                    kinds.append(message["type"])
+            self.assertEqual(kinds[:2], ["analysis", "diagnostics"])
 
     def test_picking_says_which_entity_was_hit(self):
         client, text, seen = self.start()

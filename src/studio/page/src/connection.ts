@@ -36,7 +36,8 @@ export class Connection {
   }
 
   private connect(): void {
-    const address = `ws://${location.host}/socket?token=${encodeURIComponent(this.token)}`;
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    const address = `${scheme}://${location.host}/socket?token=${encodeURIComponent(this.token)}`;
     const socket = new WebSocket(address);
     socket.binaryType = 'arraybuffer';
     this.socket = socket;

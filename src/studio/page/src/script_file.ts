@@ -15,12 +15,22 @@ export interface ScriptHost {
   note(text: string): void;
 }
 
+/** Nobody else's name, which also browsers can make that came by plain HTTP. */
+function newPageName(): string {
+  const numbers = crypto.getRandomValues(new Uint32Array(2));
+  return Array.from(numbers, (number) => number.toString(16)).join('');
+}
+
 export class ScriptFile {
   readonly list = document.createElement('select');
   name = '';
   private folder = '';
   private savedText = '';
   private hasText = false;
+  /** The server keeps what is typed under this name. */
+  private page = newPageName();
+  /** The file was changed by another program, and what is to become of it was not answered. */
+  private isInConflict = false;
 
   constructor(private readonly host: ScriptHost) {
     this.list.setAttribute('aria-label', 'Script to open');
@@ -41,7 +51,7 @@ export class ScriptFile {
     this.listScripts(scripts);
     // After a lost connection the server gets what was typed meanwhile.
     const name = (this.hasText && this.name) || script || scripts[0];
-    if (name !== undefined) this.host.send({type: 'open', script: name});
+    if (name !== undefined) this.host.send({type: 'open', script: name, page: this.page});
   }
 
   open(script: string): void {
@@ -51,7 +61,8 @@ export class ScriptFile {
       return;
     }
     this.name = '';
-    this.host.send({type: 'open', script});
+    this.page = newPageName();
+    this.host.send({type: 'open', script, page: this.page});
   }
 
   /** `typed` is what was typed and not saved, as the server kept it. */
@@ -66,10 +77,11 @@ export class ScriptFile {
     const kept = storage.getItem(this.draftKey);
     this.savedText = text;
     this.hasText = true;
+    this.isInConflict = false;
     this.host.show(kept ?? text);
     if (kept !== null && kept !== text)
       this.host.note('What you had typed and not saved is here again.');
-    else if (typed !== undefined) this.offer(script, typed);
+    if (typed !== undefined && typed !== kept) this.offer(script, typed);
   }
 
   private offer(script: string, typed: string): void {
@@ -87,8 +99,11 @@ export class ScriptFile {
   }
 
   save(force: boolean): void {
-    if (this.name !== '')
-      this.host.send({type: 'save', script: this.name, text: this.host.text(), force});
+    if (this.name === '') return;
+    if (this.isInConflict && !force &&
+        !confirm(`${this.name} was changed by another program. Write over it?`)) return;
+    this.isInConflict = false;
+    this.host.send({type: 'save', script: this.name, text: this.host.text(), force});
   }
 
   saved(script: string, scripts: string[]): void {
@@ -107,13 +122,15 @@ export class ScriptFile {
       return this.host.note(`${script} was changed by another program, and is shown so.`);
     }
     this.savedText = text;
+    this.isInConflict = true;
     ask(`${script} was changed by another program, and here, too.`, {
       'Take the file': () => this.take(text),
-      'Keep what is here': () => undefined,
+      'Keep what is here': () => { this.isInConflict = false; },
     });
   }
 
   private take(text: string): void {
+    this.isInConflict = false;
     this.savedText = text;
     this.host.replace(text);
   }

@@ -1,6 +1,6 @@
 // Starts the studio and a browser for the tests.
 import {spawn} from 'node:child_process';
-import {cpSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {cpSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
@@ -30,16 +30,22 @@ export function copyScene(folder, name) {
   cpSync(join(project, 'examples/scenes', name), join(folder, name));
 }
 
+/** The texts that the server keeps of pages which have not saved them. */
+export function keptTexts(folder) {
+  return readdirSync(folder).filter((name) => name.endsWith('.typed'))
+    .map((name) => readFileSync(join(folder, name), 'utf8'));
+}
+
 /** Starts the server. `end` interrupts it and gives its exit code. */
-export async function startServer(folder, script = '', port = 0) {
-  const child = spawn(program, [folder, script, String(port), '0'],
+export async function startServer(folder, script = '', port = 0, more = []) {
+  const child = spawn(program, [`folder=${folder}`, `script=${script}`, `port=${port}`, ...more],
                       {stdio: ['ignore', 'pipe', 'inherit']});
   const ended = new Promise((resolve) => child.on('exit', (code, signal) => resolve(code ?? signal)));
   const url = await new Promise((resolve, reject) => {
     let output = '';
     child.stdout.on('data', (data) => {
       output += data;
-      const found = /http:\S+/.exec(output);
+      const found = /https?:\S+/.exec(output);
       if (found) resolve(found[0]);
     });
     child.on('exit', () => reject(new Error('the server ended')));

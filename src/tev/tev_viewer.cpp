@@ -1,4 +1,4 @@
-#include "cli/tev_viewer.hpp"
+#include "tev/tev_viewer.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <crt/error.hpp>
 #include <cstring>
@@ -19,7 +20,7 @@
 #include <system_error>
 #include <utility>
 
-namespace crt::cli {
+namespace crt::tev {
 
 namespace {
 
@@ -126,7 +127,7 @@ class OpenSocket {
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
-AddressList addresses_of(const NetworkAddress& address) {
+AddressList addresses_of(const ViewerAddress& address) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* list = nullptr;
@@ -137,6 +138,35 @@ AddressList addresses_of(const NetworkAddress& address) {
 }
 
 }  // namespace
+
+std::optional<ViewerAddress> viewer_address(std::string_view text) {
+  constexpr int highest_port = 65535;
+  // An address of IPv6 stands in brackets: [::1]:14158.
+  const bool has_brackets = text.starts_with('[');
+  const std::size_t bracket = has_brackets ? text.find(']') : 0;
+  if (bracket == std::string_view::npos) return std::nullopt;
+  const std::size_t colon = text.find(':', bracket);
+  const std::string_view host = text.substr(0, colon);
+  ViewerAddress address{.host = std::string(host)};
+  if (has_brackets) {
+    if (!host.ends_with(']')) return std::nullopt;
+    address.host = host.substr(1, bracket - 1);
+  }
+  if (address.host.empty()) return std::nullopt;
+  if (colon == std::string_view::npos) return address;
+  const std::string_view port = text.substr(colon + 1);
+  const char* end = port.data() + port.size();
+  const auto read = std::from_chars(port.data(), end, address.port);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  if (address.port < 1 || address.port > highest_port) return std::nullopt;
+  return address;
+}
+
+std::string text_of(const ViewerAddress& address) {
+  const bool is_ipv6 = address.host.find(':') != std::string::npos;
+  return fmt::format("{}{}{}:{}", is_ipv6 ? "[" : "", address.host, is_ipv6 ? "]" : "",
+                     address.port);
+}
 
 std::vector<std::string> tev_messages(const std::string& name, const Image& image,
                                       const Image* before) {
@@ -155,7 +185,7 @@ std::vector<std::string> tev_messages(const std::string& name, const Image& imag
   return messages;
 }
 
-TevViewer::TevViewer(NetworkAddress address)
+TevViewer::TevViewer(ViewerAddress address)
     : address_(std::move(address)), thread_([this] { work(); }) {}
 
 TevViewer::~TevViewer() {
@@ -196,7 +226,7 @@ bool TevViewer::is_ended() const {
 }
 
 std::string TevViewer::failure_text(const std::string& why) const {
-  return fmt::format("no viewer shows the picture at {}:{}: {}", address_.host, address_.port, why);
+  return fmt::format("no viewer shows the picture at {}: {}", text_of(address_), why);
 }
 
 void TevViewer::work() {
@@ -288,4 +318,4 @@ void TevViewer::wait_for(int socket, short event, const char* what) const {
   throw failure_of(what, ETIMEDOUT);
 }
 
-}  // namespace crt::cli
+}  // namespace crt::tev

@@ -14,12 +14,24 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
-#include "cli/options.hpp"
+namespace crt::tev {
 
-namespace crt::cli {
+/// A ViewerAddress is where a viewer listens.
+struct ViewerAddress {
+  std::string host;
+  int port = 14158;  ///< tev's own
+};
+
+/// Reads "HOST:PORT", where the port may be left out. An address of IPv6 stands in brackets.
+/// Nothing is returned for what is no such text.
+std::optional<ViewerAddress> viewer_address(std::string_view text);
+
+/// Returns "HOST:PORT".
+std::string text_of(const ViewerAddress& address);
 
 /// Returns the messages that turn what the viewer shows under a name into a picture: those rows of
 /// it that differ from the picture before, or all if that is null or has another size.
@@ -31,7 +43,7 @@ std::vector<std::string> tev_messages(const std::string& name, const Image& imag
 class TevViewer {
  public:
   /// Begins to connect.
-  explicit TevViewer(NetworkAddress address);
+  explicit TevViewer(ViewerAddress address);
   /// Gives up what is not yet sent.
   ~TevViewer();
   TevViewer(const TevViewer&) = delete;
@@ -62,7 +74,7 @@ class TevViewer {
   std::string failure_text(const std::string& why) const;
   bool is_ended() const;
 
-  const NetworkAddress address_;
+  const ViewerAddress address_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Picture> next_;
@@ -72,4 +84,4 @@ class TevViewer {
   std::thread thread_;
 };
 
-}  // namespace crt::cli
+}  // namespace crt::tev

@@ -1,0 +1,271 @@
+// A session is a connection with a browser: at first a visit, of which requests are read, and then
+// perhaps a socket of a page that has shown the token. Both are templates of the kind of
+// connection, which says how bytes go and how it begins and ends: Plain here, and Tls in tls.cpp.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "studio/access.hpp"
+#include "studio/web_server.hpp"
+
+namespace crt::studio {
+
+namespace net = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using net::ip::tcp;
+using Code = boost::system::error_code;
+using Request = http::request<http::empty_body>;
+
+constexpr std::uint32_t longest_header = 16 << 10;
+/// Whoever connects must have agreed on how to encrypt after so long.
+constexpr std::chrono::seconds handshake_timeout{10};
+constexpr std::chrono::seconds request_timeout{30};
+constexpr std::chrono::seconds response_timeout{120};
+/// A browser that does not take what it is sent is left.
+constexpr std::size_t most_waiting_bytes = std::size_t{256} << 20;
+
+/// Anything that lives as long as its connection, and can be ended.
+class Session {
+ public:
+  virtual ~Session() = default;
+  virtual void end() = 0;
+};
+
+/// What sessions share. Only the server's thread touches it.
+struct Shared {
+  WebServerOptions options;
+  WebServer::MakeClient make_client;
+  HostNames names;
+  std::uint16_t port = 0;
+  std::set<Session*> sessions{};
+  std::list<Session*> visits{};  ///< those of the sessions that have not shown the token, in turn
+  std::size_t clients = 0;
+};
+
+/// A Transport begins to talk to those who connect.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  virtual void begin(tcp::socket socket, const std::shared_ptr<Shared>& shared) const = 0;
+};
+
+/// Plain connections are not encrypted.
+struct Plain {
+  using Stream = beast::tcp_stream;
+
+  /// Does what comes before the first request.
+  template <class Handler>
+  static void begin(Stream&, Handler&& handler) {
+    handler(Code());
+  }
+  /// Says that nothing more is sent.
+  template <class Handler>
+  static void end(Stream& stream, Handler&& handler) {
+    Code failed;
+    stream.socket().shutdown(tcp::socket::shutdown_send, failed);
+    handler(failed);
+  }
+};
+
+/// A SocketMessage goes to a browser.
+struct SocketMessage {
+  std::string bytes;
+  bool is_text = true;
+};
+
+/// An Outbox is what the client has of its connection, which it does not keep alive. Messages leave
+/// in the order in which they came in, whichever threads they are from.
+class Outbox : public Connection, public std::enable_shared_from_this<Outbox> {
+ public:
+  /// Takes what is called in the server's thread with messages that are to be sent.
+  using Take = std::function<void(std::deque<SocketMessage>)>;
+  Outbox(net::any_io_executor executor, Take take)
+      : executor_(std::move(executor)), take_(std::move(take)) {}
+
+  void send_text(std::string text) override { send({std::move(text), true}); }
+  void send_binary(std::string bytes) override { send({std::move(bytes), false}); }
+
+ private:
+  void send(SocketMessage message);
+
+  const net::any_io_executor executor_;
+  const Take take_;
+  std::mutex mutex_;
+  std::deque<SocketMessage> messages_;  ///< if there is any, the server's thread will look
+};
+
+/// A Socket is a connection that has become a WebSocket.
+template <class Kind>
+class Socket : public Session, public std::enable_shared_from_this<Socket<Kind>> {
+ public:
+  Socket(typename Kind::Stream stream, std::shared_ptr<Shared> shared)
+      : stream_(std::move(stream)), shared_(std::move(shared)) {
+    shared_->sessions.insert(this);
+    ++shared_->clients;
+  }
+  ~Socket() override {
+    shared_->sessions.erase(this);
+    --shared_->clients;
+  }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+
+  void start(const Request& request) {
+    stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    websocket::permessage_deflate deflate;
+    deflate.server_enable = true;
+    deflate.compLevel = 1;
+    stream_.set_option(deflate);
+    stream_.read_message_max(shared_->options.longest_message);
+    stream_.async_accept(request, [self = this->shared_from_this()](Code failed) {
+      if (failed) return;
+      self->client_ = self->shared_->make_client(self->outbox());
+      self->read();
+    });
+  }
+
+  void end() override {
+    client_.reset();
+    Code ignored;
+    beast::get_lowest_layer(stream_).socket().close(ignored);
+  }
+
+ private:
+  std::shared_ptr<Connection> outbox() {
+    // The socket is locked in its own thread alone, so that it also ends there.
+    return std::make_shared<Outbox>(
+        stream_.get_executor(),
+        [socket = this->weak_from_this()](std::deque<SocketMessage> messages) {
+          const auto alive = socket.lock();
+          if (!alive) return;
+          for (SocketMessage& message : messages) alive->send(std::move(message));
+        });
+  }
+
+  void send(SocketMessage message) {
+    waiting_bytes_ += message.bytes.size();
+    waiting_.push_back(std::move(message));
+    if (waiting_bytes_ > most_waiting_bytes) return end();
+    if (waiting_.size() == 1) write();
+  }
+
+  void write() {
+    stream_.text(waiting_.front().is_text);
+    stream_.async_write(net::buffer(waiting_.front().bytes),
+                        [self = this->shared_from_this()](Code failed, std::size_t) {
+                          if (failed) return self->client_.reset();
+                          self->waiting_bytes_ -= self->waiting_.front().bytes.size();
+                          self->waiting_.pop_front();
+                          if (!self->waiting_.empty()) self->write();
+                        });
+  }
+
+  void read() {
+    stream_.async_read(buffer_, [self = this->shared_from_this()](Code failed, std::size_t) {
+      if (failed || !self->client_) return self->client_.reset();
+      const auto data = self->buffer_.cdata();
+      if (self->stream_.got_text())
+        self->client_->receive({static_cast<const char*>(data.data()), data.size()});
+      self->buffer_.consume(data.size());
+      self->read();
+    });
+  }
+
+  websocket::stream<typename Kind::Stream> stream_;
+  std::shared_ptr<Shared> shared_;
+  beast::flat_buffer buffer_;
+  std::deque<SocketMessage> waiting_;
+  std::size_t waiting_bytes_ = 0;
+  std::unique_ptr<Client> client_;
+};
+
+using Response = http::response<http::span_body<const char>>;
+
+/// Returns the answer to a request, or nothing if it is to become a socket.
+std::unique_ptr<Response> answer_to(const Request& request, const Shared& shared);
+
+/// A Visit is a connection of which requests are read.
+template <class Kind>
+class Visit : public Session, public std::enable_shared_from_this<Visit<Kind>> {
+ public:
+  Visit(typename Kind::Stream stream, std::shared_ptr<Shared> shared)
+      : stream_(std::move(stream)), shared_(std::move(shared)) {
+    shared_->sessions.insert(this);
+    shared_->visits.push_back(this);
+  }
+  ~Visit() override {
+    shared_->sessions.erase(this);
+    shared_->visits.remove(this);
+  }
+  Visit(const Visit&) = delete;
+  Visit& operator=(const Visit&) = delete;
+
+  void start() {
+    lowest().expires_after(handshake_timeout);
+    Kind::begin(stream_, [self = this->shared_from_this()](Code failed) {
+      if (!failed) self->read();
+    });
+  }
+
+  void end() override {
+    Code ignored;
+    lowest().socket().close(ignored);
+  }
+
+ private:
+  beast::tcp_stream& lowest() { return beast::get_lowest_layer(stream_); }
+
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(longest_header);
+    parser_->body_limit(0);
+    lowest().expires_after(request_timeout);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = this->shared_from_this()](Code failed, std::size_t) {
+                       if (!failed) self->answer(self->parser_->get());
+                     });
+  }
+
+  void answer(const Request& request) {
+    if (std::shared_ptr<Response> response = answer_to(request, *shared_))
+      return respond(std::move(response));
+    lowest().expires_never();
+    std::make_shared<Socket<Kind>>(std::move(stream_), shared_)->start(request);
+  }
+
+  void respond(const std::shared_ptr<Response>& response) {
+    lowest().expires_after(response_timeout);
+    http::async_write(stream_, *response,
+                      [self = this->shared_from_this(), response](Code failed, std::size_t) {
+                        if (failed) return;
+                        if (response->keep_alive()) return self->read();
+                        self->lowest().expires_after(handshake_timeout);
+                        Kind::end(self->stream_, [self](Code) {});
+                      });
+  }
+
+  typename Kind::Stream stream_;
+  std::shared_ptr<Shared> shared_;
+  beast::flat_buffer buffer_{longest_header};
+  std::optional<http::request_parser<http::empty_body>> parser_;
+};
+
+}  // namespace crt::studio

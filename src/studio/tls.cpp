@@ -1,0 +1,82 @@
+#include "studio/tls.hpp"
+
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/ssl/stream.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <crt/error.hpp>
+#include <fstream>
+
+#include "studio/session.hpp"
+
+namespace crt::studio {
+
+namespace {
+
+namespace ssl = net::ssl;
+
+/// Tls connections are encrypted.
+struct Tls {
+  using Stream = beast::ssl_stream<beast::tcp_stream>;
+
+  template <class Handler>
+  static void begin(Stream& stream, Handler&& handler) {
+    stream.async_handshake(ssl::stream_base::server, std::forward<Handler>(handler));
+  }
+  template <class Handler>
+  static void end(Stream& stream, Handler&& handler) {
+    stream.async_shutdown(std::forward<Handler>(handler));
+  }
+};
+
+void check_readable(const std::string& file) {
+  if (std::ifstream stream(file, std::ios::binary); stream.get() != std::char_traits<char>::eof())
+    return;
+  throw Error(ErrorCode::io, "'" + file + "' cannot be read, or is empty");
+}
+
+void refuse(const std::string& file, const char* what, const Code& failed) {
+  throw Error(ErrorCode::invalid_argument,
+              "'" + file + "' " + what + " (OpenSSL says: " + failed.message() + ")");
+}
+
+class TlsTransport : public Transport {
+ public:
+  TlsTransport(const std::string& certificate_file, const std::string& key_file)
+      : context_(ssl::context::tls_server) {
+    check_readable(certificate_file);
+    check_readable(key_file);
+    context_.set_options(ssl::context::default_workarounds | ssl::context::no_tlsv1 |
+                         ssl::context::no_tlsv1_1 | SSL_OP_NO_RENEGOTIATION |
+                         SSL_OP_CIPHER_SERVER_PREFERENCE);
+    // A key that asks for a password is refused: nobody may be there to be asked.
+    context_.set_password_callback(
+        [](std::size_t, ssl::context::password_purpose) { return std::string(); });
+    Code failed;
+    context_.use_certificate_chain_file(certificate_file, failed);
+    if (failed) refuse(certificate_file, "is no certificate in PEM", failed);
+    context_.use_private_key_file(key_file, ssl::context::pem, failed);
+    if (failed &&
+        ERR_GET_REASON(static_cast<unsigned long>(failed.value())) == X509_R_KEY_VALUES_MISMATCH)
+      refuse(key_file, ("is not the key of '" + certificate_file + "'").c_str(), failed);
+    if (failed) refuse(key_file, "is no private key in PEM that needs no password", failed);
+  }
+
+  void begin(tcp::socket socket, const std::shared_ptr<Shared>& shared) const override {
+    std::make_shared<Visit<Tls>>(Tls::Stream(beast::tcp_stream(std::move(socket)), context_),
+                                 shared)
+        ->start();
+  }
+
+ private:
+  mutable ssl::context context_;  // streams take it as one that may change
+};
+
+}  // namespace
+
+std::shared_ptr<const Transport> make_tls(const std::string& certificate_file,
+                                          const std::string& key_file) {
+  return std::make_shared<const TlsTransport>(certificate_file, key_file);
+}
+
+}  // namespace crt::studio
