@@ -90,7 +90,7 @@ class StudioClient : public ViewClient {
                                              : folder_->file_of(script_).string();
     const Revision revision{message.at("revision").get<std::uint32_t>(), name, text};
     std::optional<ViewOptions> options;
-    if (message.contains("view")) options = view_options_of(message.at("view"), Utf16Places(*text));
+    if (message.contains("view")) options = view_options_of(message.at("view"), TextPlaces(*text));
     text_ = std::move(text);
     if (!script_.empty() && message.value("script", "") == script_) keep_typed();
     analyst_.set_script(revision);
@@ -109,7 +109,7 @@ class StudioClient : public ViewClient {
 
   void view(const json& message) {
     if (!text_) throw Error(ErrorCode::invalid_argument, "there is no script to be viewed yet");
-    renderer().set_options(view_options_of(message.at("view"), Utf16Places(*text_)));
+    renderer().set_options(view_options_of(message.at("view"), TextPlaces(*text_)));
   }
 
   void ask(const json& message) {
