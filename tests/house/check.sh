@@ -66,13 +66,13 @@ check_layers() {
     'src/studio/*' 'src/capi/*' 'src/cli/*'
   # Anybody may see what is about words, which sees nothing.
   lines_with '^#include [<"](crt|core|lang|format|service|lsp|studio|cli|capi)/' 'src/text/*'
-  # The front end is seen by what lays scripts out and by what serves editors, and these by the
-  # command, each by one header. The studio sees the public headers alone.
+  # The front end is seen by what lays scripts out and by what editors ask. The language server and
+  # the studio see the public headers alone, and the command one header of two of these besides.
   lines_with '^#include [<"](format|service|lsp|studio|cli|capi)/' 'src/lang/*'
   lines_with '^#include [<"](format|service|lsp|studio|cli)/' 'src/capi/*'
   lines_with '^#include [<"](service|lsp|studio|cli|capi)/' 'src/format/*'
   lines_with '^#include [<"](lsp|studio|cli|capi)/' 'src/service/*'
-  lines_with '^#include [<"](format|studio|cli|capi)/' 'src/lsp/*'
+  lines_with '^#include [<"](lang|format|service|studio|cli|capi)/' 'src/lsp/*'
   lines_with '^#include [<"](lang|format|service|lsp|cli|capi)/' 'src/studio/*'
   lines_with '^#include [<"](lang|format|service|lsp|studio)/' 'src/cli/*' |
     without '"(format/format|lsp/server)\.hpp"'
