@@ -7,6 +7,7 @@
 #include <crt/source_code.hpp>
 #include <crt/validate.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -230,6 +231,19 @@ json places_json(const Analysis& analysis, std::uint32_t unit) {
   for (const ScriptLocation& location : analysis.service.places(analysis.places.byte_of(unit)))
     places.push_back(location_json(analysis, location));
   return places;
+}
+
+json rename_json(const Analysis& analysis, std::uint32_t unit, const std::string& name) {
+  json spans = json::array();
+  std::set<std::string> others;
+  for (const ScriptLocation& place : analysis.service.rename(analysis.places.byte_of(unit), name)) {
+    if (place.file == analysis.revision.name) {
+      spans.push_back(span_json(analysis.places, place.span));
+    } else {
+      others.insert(place.file);
+    }
+  }
+  return {{"spans", std::move(spans)}, {"others", others}};
 }
 
 json format_json(const Analysis& analysis) {
