@@ -66,6 +66,14 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+std::vector<Diagnostic> check_alone(Program& program, const ScriptOptions& options) {
+  const lang::Source& main = program.main();
+  const auto parsed = program.parsed_main();
+  return (parsed ? lang::run_parsed(main.text, main.name, options, *parsed)
+                 : run_script(main.text, main.name, options))
+      .diagnostics;
+}
+
 /// Checks a script that others import as such: by a script that does nothing else.
 std::vector<Diagnostic> check_import(const lang::Source& source, ScriptOptions& options) {
   const fs::path path = source.name;
@@ -94,7 +102,7 @@ void lower_limits(ScriptLimits& limits) {
   limits.errors = 100;
 }
 
-std::vector<Diagnostic> check_script(const Program& program, ScriptOptions options) {
+std::vector<Diagnostic> check_script(Program& program, ScriptOptions options) {
   const lang::Source& main = program.main();
   if (main.text.size() > longest_checked) {
     return {{.severity = Severity::warning,
@@ -106,9 +114,8 @@ std::vector<Diagnostic> check_script(const Program& program, ScriptOptions optio
   lower_limits(options.limits);
   options.open_file = TinyPictures(options.open_file);
   options.print = [](std::string_view) {};
-  std::vector<Diagnostic> diagnostics = stands_alone(program.script())
-                                            ? run_script(main.text, main.name, options).diagnostics
-                                            : check_import(main, options);
+  std::vector<Diagnostic> diagnostics =
+      stands_alone(program.script()) ? check_alone(program, options) : check_import(main, options);
   std::erase_if(diagnostics, is_of_low_limit);
   return diagnostics;
 }

@@ -21,6 +21,6 @@ void lower_limits(ScriptLimits& limits);
 
 /// Returns what is wrong with a script and what it imports. What a low limit ends is no error. A
 /// script without Scene and Settings is one for others to import. Images are not decoded.
-std::vector<Diagnostic> check_script(const Program& program, ScriptOptions options);
+std::vector<Diagnostic> check_script(Program& program, ScriptOptions options);
 
 }  // namespace crt::service
