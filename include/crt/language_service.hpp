@@ -207,9 +207,9 @@ class LanguageService {
   CompletionList complete(std::uint32_t byte) const;
   /// Returns what to show about the word at a byte, if there is anything.
   std::optional<ScriptHover> hover(std::uint32_t byte) const;
-  /// Runs the script, within low limits and without decoding images, and returns what is wrong.
-  /// What only a low limit ends is no error. A script without Scene and Settings is one to import.
-  /// The file of a diagnostic's place is one of files(). The script is run once.
+  /// Runs the script, once, within low limits and without reading pictures and meshes, and returns
+  /// what is wrong. What only a low limit ends is no error. A script without Scene and Settings is
+  /// one to import. The file of a diagnostic's place is one of files().
   std::vector<Diagnostic> diagnostics() const;
 
  private:
