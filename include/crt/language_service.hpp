@@ -1,11 +1,13 @@
 // This header tells editors about scripts while they are written: what each token is, the tree with
 // its places, what names mean, what may come at a place, what is wrong. A text need not be whole.
-// All places are bytes of the text. It belongs to the library crt::service.
+// All places are bytes of the text, which crt/text_places.hpp translates. It belongs to the library
+// crt::service.
 #pragma once
 
 #include <crt/script.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +61,12 @@ struct CompletionList {
 struct ScriptHover {
   std::string markdown{};
   TextSpan span{};
+};
+
+/// A ScriptFile is the main script or one that it imports, with the text that was read.
+struct ScriptFile {
+  std::string name{};  ///< as in a ScriptLocation and in the place of a Diagnostic
+  std::string_view text{};
 };
 
 /// A ScriptLocation is a piece of the main script or of a script that it imports.
@@ -168,6 +176,13 @@ class LanguageService {
   LanguageService(const LanguageService&) = delete;
   LanguageService& operator=(const LanguageService&) = delete;
 
+  /// Lists the main script and then those that it imports. The texts last as long as the service.
+  /// A script that comes with CRT has the name that it is imported by, such as "crt/metals".
+  std::vector<ScriptFile> files() const;
+  /// Says whether the script or one that it imports is in this file, by any path of it. If so, a
+  /// change of the file needs another service.
+  bool has_file(const std::filesystem::path& path) const;
+
   /// Lists the tokens and comments in their order.
   std::vector<ScriptToken> tokens() const;
   /// Lists the nodes of the tree. Each comes behind the node around it.
@@ -178,12 +193,23 @@ class LanguageService {
   std::optional<ScriptLocation> definition(std::uint32_t byte) const;
   /// Lists all places of the name at a byte, in all scripts.
   std::vector<ScriptLocation> places(std::uint32_t byte) const;
+  /// Returns the name at a byte, in the main script, if rename() may change it.
+  std::optional<TextSpan> renamable_name(std::uint32_t byte) const;
+  /// Lists the places, in all scripts, that must get a new name for the name at a byte. `others`
+  /// know other scripts that an editor has open. Those that import the script in which the name is
+  /// set are changed as well. Throws Error (invalid_argument) if the new name is none, if any name
+  /// would mean something else by it, if a script that it stands in has syntax errors, or if the
+  /// others were made of another text of the script. Nothing else is wrong with the result of
+  /// putting the new name in.
+  std::vector<ScriptLocation> rename(std::uint32_t byte, const std::string& new_name,
+                                     const std::vector<const LanguageService*>& others = {}) const;
   /// Returns what may come at a byte.
   CompletionList complete(std::uint32_t byte) const;
   /// Returns what to show about the word at a byte, if there is anything.
   std::optional<ScriptHover> hover(std::uint32_t byte) const;
-  /// Runs the script, within low limits and without decoding images, and returns what is wrong.
-  /// What only a low limit ends is no error. A script without Scene and Settings is one to import.
+  /// Runs the script, once, within low limits and without reading pictures and meshes, and returns
+  /// what is wrong. What only a low limit ends is no error. A script without Scene and Settings is
+  /// one to import. The file of a diagnostic's place is one of files().
   std::vector<Diagnostic> diagnostics() const;
 
  private:

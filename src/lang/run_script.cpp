@@ -17,6 +17,7 @@
 #include "lang/library.hpp"
 #include "lang/name_uses.hpp"
 #include "lang/parser.hpp"
+#include "lang/run_parsed.hpp"
 #include "lang/settings.hpp"
 #include "lang/suggestion.hpp"
 #include "lang/utf8.hpp"
@@ -37,8 +38,11 @@ fs::path without_links(const fs::path& path) {
 
 class Session {
  public:
-  explicit Session(const ScriptOptions& options)
+  /// `parsed` is null if the script is to be parsed.
+  Session(const ScriptOptions& options, const ParsedScript* parsed)
       : options_(options),
+        parsed_(parsed),
+        symbols_(parsed ? parsed->symbols : SymbolTable()),
         reporter_(sources_, std::max<std::size_t>(options.limits.errors, 1)),
         context_(options, symbols_, sources_, reporter_),
         memory_left_(options.limits.memory_bytes),
@@ -54,6 +58,7 @@ class Session {
  private:
   int compat_of(const Source& source);
   const Script* load(const Source& source, TextKind kind);
+  const Script* checked(Script& script);
   void run_main(const Source& source, const Script& script, ScriptResult& result);
   void run_import(const Import& import);
   void run_library(const Import& import);
@@ -67,6 +72,7 @@ class Session {
   std::vector<Given> all_settings();
 
   const ScriptOptions& options_;
+  const ParsedScript* parsed_;
   SourceMap sources_;
   SymbolTable symbols_;
   Reporter reporter_;
@@ -110,7 +116,11 @@ int Session::compat_of(const Source& source) {
 const Script* Session::load(const Source& source, TextKind kind) {
   Script& script = scripts_.emplace_back(
       parse(source, kind, context_.compat, symbols_, reporter_, memory_left_));
-  if (reporter_.has_errors()) return nullptr;
+  return reporter_.has_errors() ? nullptr : checked(script);
+}
+
+/// Returns null after an error.
+const Script* Session::checked(Script& script) {
   check(script, context_.compat, symbols_, reporter_);
   name_uses_ = find_name_uses(script, symbols_, reporter_);
   reads_time_ = reads_time_ || name_uses_.reads_time;
@@ -130,7 +140,9 @@ void Session::run(std::string_view text, const std::string& name, ScriptResult& 
   const Source& source = sources_.add(name, std::string(text), main_directory_);
   running_.emplace_back(without_links(name), name);
   context_.compat = compat_of(source);
-  if (const Script* script = load(source, TextKind::script)) run_main(source, *script, result);
+  const bool is_parsed = parsed_ && parsed_->compat == context_.compat;
+  const Script* script = is_parsed ? checked(parsed_->script) : load(source, TextKind::script);
+  if (script) run_main(source, *script, result);
 }
 
 /// Turns spans into places in the main script.
@@ -329,26 +341,36 @@ Diagnostic unplaced(const std::string& file, std::string message, ErrorCode code
   return diagnostic;
 }
 
-}  // namespace
-
-}  // namespace lang
-
-ScriptResult run_script(std::string_view text, const std::string& name,
-                        const ScriptOptions& options) {
+ScriptResult run(std::string_view text, const std::string& name, const ScriptOptions& options,
+                 const ParsedScript* parsed) {
   ScriptResult result;
   try {
-    lang::Session session(options);
+    Session session(options, parsed);
     try {
       session.run(text, name, result);
-    } catch (const lang::GiveUp&) {
+    } catch (const GiveUp&) {
       // Everything was reported already.
     }
     result.diagnostics = std::move(session.diagnostics());
   } catch (const std::bad_alloc&) {
     result.scene.reset();
-    result.diagnostics.push_back(lang::unplaced(name, "out of memory", ErrorCode::out_of_memory));
+    result.diagnostics.push_back(unplaced(name, "out of memory", ErrorCode::out_of_memory));
   }
   return result;
+}
+
+}  // namespace
+
+ScriptResult run_parsed(std::string_view text, const std::string& name,
+                        const ScriptOptions& options, const ParsedScript& parsed) {
+  return run(text, name, options, &parsed);
+}
+
+}  // namespace lang
+
+ScriptResult run_script(std::string_view text, const std::string& name,
+                        const ScriptOptions& options) {
+  return lang::run(text, name, options, nullptr);
 }
 
 ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOptions& options) {

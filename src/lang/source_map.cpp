@@ -13,18 +13,17 @@ namespace {
 /// A line that is kept for a message has at most this length.
 constexpr std::size_t longest_line_bytes = 4096;
 
-std::vector<std::uint32_t> find_lines(std::string_view text) {
+}  // namespace
+
+std::vector<std::uint32_t> find_line_starts(std::string_view text) {
   std::vector<std::uint32_t> starts{0};
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool carriage_return_alone =
-        text[i] == '\r' && !(i + 1 < text.size() && text[i + 1] == '\n');
-    if (text[i] == '\n' || carriage_return_alone)
-      starts.push_back(static_cast<std::uint32_t>(i + 1));
+    if (text[i] != '\n' && text[i] != '\r') continue;
+    const bool goes_on = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+    if (!goes_on) starts.push_back(static_cast<std::uint32_t>(i + 1));
   }
   return starts;
 }
-
-}  // namespace
 
 std::size_t line_of(const Source& source, std::uint32_t offset) {
   const auto after = std::upper_bound(source.line_starts.begin(), source.line_starts.end(), offset);
@@ -47,7 +46,7 @@ const Source& SourceMap::add(std::string name, std::string text, std::filesystem
   source.text = std::move(text);
   source.directory = std::move(directory);
   source.base = next_base_;
-  source.line_starts = find_lines(source.text);
+  source.line_starts = find_line_starts(source.text);
   // The text takes one more than its length, as its end is a place too.
   next_base_ += static_cast<std::uint32_t>(source.text.size()) + 1;
   return source;

@@ -33,6 +33,9 @@ struct Source {
   std::vector<std::uint32_t> line_starts;  ///< relative to base
 };
 
+/// Returns where the lines of a text begin. A line ends with \n, \r\n or \r.
+std::vector<std::uint32_t> find_line_starts(std::string_view text);
+
 /// Returns the number of the line, from 0, that holds an offset from the source's base.
 std::size_t line_of(const Source& source, std::uint32_t offset);
 

@@ -13,6 +13,13 @@ enum class Symbol : std::uint32_t {};
 
 class SymbolTable {
  public:
+  SymbolTable() = default;
+  /// Copies the names with their numbers.
+  SymbolTable(const SymbolTable& other) {
+    for (const std::string& name : other.names_) intern(name);
+  }
+  SymbolTable& operator=(const SymbolTable&) = delete;
+
   Symbol intern(std::string_view name) {
     if (const auto known = symbols_.find(name); known != symbols_.end()) return known->second;
     const auto symbol = static_cast<Symbol>(names_.size());

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "lsp/uri.hpp"
 
@@ -15,8 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-json to_json(const Position& position) {
-  return {{"line", position.line}, {"character", position.character}};
+json to_json(const LineColumn& position) {
+  return {{"line", position.line}, {"character", position.column}};
 }
 
 /// Reads a count, which the protocol bounds by 2^31 - 1. Others are cut to that.
@@ -27,16 +26,16 @@ std::uint32_t count_of(const json& value) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(value.get<std::int64_t>(), 0, most));
 }
 
-/// Returns the range of a diagnostic, whose columns count code points.
-Range range_of_place(const SourcePlace& place, std::string_view line, Encoding encoding) {
+/// Returns the range of a diagnostic, in whatever file it is.
+Range range_of_diagnostic(const Diagnostic& diagnostic, ColumnUnit unit) {
+  SourcePlace place = diagnostic.place;
   if (place.line < 1) return {};
-  const auto column = static_cast<std::size_t>(std::max(place.column, 1)) - 1;
-  const auto length = static_cast<std::size_t>(std::max(place.length, 0));
-  const std::string_view before = first_code_points(line, column);
-  const std::string_view marked = first_code_points(line.substr(before.size()), length);
-  const auto number = static_cast<std::uint32_t>(place.line) - 1;
-  const std::uint32_t begin = count_characters(before, encoding);
-  return {{number, begin}, {number, begin + count_characters(marked, encoding)}};
+  const auto line = static_cast<std::uint32_t>(place.line) - 1;
+  place.line = 1;
+  const TextPlaces places(diagnostic.source_line);
+  Range range = range_of(places, places.span_of(place), unit);
+  range.start.line = range.end.line = line;
+  return range;
 }
 
 /// Returns a diagnostic's message with the calls that led to it.
@@ -72,7 +71,7 @@ int kind_of(CompletionKind kind) {
 
 }  // namespace
 
-Position position_of_json(const json& value) {
+LineColumn position_of_json(const json& value) {
   return {count_of(value.at("line")), count_of(value.at("character"))};
 }
 
@@ -84,16 +83,15 @@ json to_json(const Range& range) {
   return {{"start", to_json(range.start)}, {"end", to_json(range.end)}};
 }
 
-json diagnostics_json(const FileDiagnostics& file, Encoding encoding) {
+json diagnostics_json(const FileDiagnostics& file, ColumnUnit unit) {
   json list = json::array();
   for (const Diagnostic& diagnostic : file.diagnostics) {
     constexpr int error = 1;
     constexpr int warning = 2;
-    list.push_back(
-        {{"range", to_json(range_of_place(diagnostic.place, diagnostic.source_line, encoding))},
-         {"severity", diagnostic.severity == Severity::error ? error : warning},
-         {"source", "crt"},
-         {"message", message_of(diagnostic)}});
+    list.push_back({{"range", to_json(range_of_diagnostic(diagnostic, unit))},
+                    {"severity", diagnostic.severity == Severity::error ? error : warning},
+                    {"source", "crt"},
+                    {"message", message_of(diagnostic)}});
   }
   return {{"jsonrpc", "2.0"},
           {"method", "textDocument/publishDiagnostics"},
@@ -114,26 +112,35 @@ json completion_json(const Completion& item, const Range& range, bool takes_snip
   return result;
 }
 
-json location_json(const Place& place, const Workspace& workspace) {
-  const Range range =
-      place.source ? range_of(*place.source, place.span, workspace.encoding()) : Range{};
-  return {{"uri", workspace.uri_of_name(place.file)}, {"range", to_json(range)}};
+json LocationWriter::write(const ScriptLocation& location) {
+  const auto found = places_.try_emplace(location.file, workspace_.text_of(location.file)).first;
+  return {{"uri", workspace_.uri_of_name(location.file)},
+          {"range", to_json(range_of(found->second, location.span, workspace_.unit()))}};
 }
 
-json symbol_json(const DocumentSymbol& symbol, const lang::Source& source, Encoding encoding) {
+json symbols_json(const std::vector<ScriptNode>& tree, const TextPlaces& places, ColumnUnit unit) {
   constexpr int module_kind = 2;
   constexpr int function_kind = 12;
   constexpr int variable_kind = 13;
-  return {{"name", symbol.name},
-          {"kind", symbol.is_block   ? module_kind
-                   : symbol.is_macro ? function_kind
-                                     : variable_kind},
-          {"range", to_json(range_of(source, symbol.whole, encoding))},
-          {"selectionRange", to_json(range_of(source, symbol.span, encoding))}};
+  json result = json::array();
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    const ScriptNode& node = tree[i];
+    const bool is_block = node.kind == NodeKind::settings || node.kind == NodeKind::scene;
+    const bool is_symbol = is_block || node.kind == NodeKind::assignment;
+    if (node.parent != ScriptNode::no_parent || !is_symbol) continue;
+    const bool is_macro =
+        i + 1 < tree.size() && tree[i + 1].parent == i && tree[i + 1].kind == NodeKind::macro;
+    const int kind = is_block ? module_kind : is_macro ? function_kind : variable_kind;
+    result.push_back({{"name", node.name},
+                      {"kind", kind},
+                      {"range", to_json(range_of(places, node.span, unit))},
+                      {"selectionRange", to_json(range_of(places, node.name_span, unit))}});
+  }
+  return result;
 }
 
-json edits_json(const lang::Source& source, const std::string& text, Encoding encoding) {
-  const std::string& before = source.text;
+json edits_json(const Document& document, const std::string& text, ColumnUnit unit) {
+  const std::string& before = document.text;
   if (text == before) return json::array();
   // The edit begins and ends with lines, so it does not cut a character or a line end.
   const auto ends = std::mismatch(before.begin(), before.end(), text.begin(), text.end());
@@ -146,9 +153,9 @@ json edits_json(const lang::Source& source, const std::string& text, Encoding en
     return place == 0 || before[place - 1] == '\n';
   };
   while (same > 0 && !is_line_end(before.size() - same)) --same;
-  const Range range{
-      position_of(source, static_cast<std::uint32_t>(begin), encoding),
-      position_of(source, static_cast<std::uint32_t>(before.size() - same), encoding)};
+  const TextSpan span{static_cast<std::uint32_t>(begin),
+                      static_cast<std::uint32_t>(before.size() - same)};
+  const Range range = range_of(document.places, span, unit);
   return json::array(
       {{{"range", to_json(range)}, {"newText", text.substr(begin, text.size() - same - begin)}}});
 }

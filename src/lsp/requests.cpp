@@ -1,6 +1,7 @@
 #include "lsp/requests.hpp"
 
 #include <algorithm>
+#include <crt/error.hpp>
 #include <crt/language_service.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -8,28 +9,10 @@
 #include "lsp/json_values.hpp"
 #include "lsp/semantic_tokens.hpp"
 #include "lsp/uri.hpp"
-#include "service/completion.hpp"
-#include "service/hover.hpp"
-#include "service/navigation.hpp"
 
 namespace crt::lsp {
 
 using nlohmann::json;
-
-Requests::Requests()
-    : reference_(service::reference_text()),
-      methods_{
-          {"textDocument/completion", &Requests::completion},
-          {"textDocument/hover", &Requests::hover},
-          {"textDocument/definition", &Requests::definition},
-          {"textDocument/references", &Requests::references},
-          {"textDocument/documentHighlight", &Requests::highlights},
-          {"textDocument/prepareRename", &Requests::prepare_rename},
-          {"textDocument/rename", &Requests::rename},
-          {"textDocument/documentSymbol", &Requests::symbols},
-          {"textDocument/semanticTokens/full", &Requests::tokens},
-          {"textDocument/formatting", &Requests::formatting},
-      } {}
 
 json Requests::initialize(const json& params) {
   const auto get = [&](const char* path, const json& otherwise) {
@@ -38,7 +21,7 @@ json Requests::initialize(const json& params) {
   };
   const json encodings = get("/capabilities/general/positionEncodings", json::array());
   if (std::find(encodings.begin(), encodings.end(), json("utf-8")) != encodings.end())
-    workspace_.set_encoding(Encoding::utf8);
+    workspace_.set_unit(ColumnUnit::utf8);
   const json snippets =
       get("/capabilities/textDocument/completion/completionItem/snippetSupport", false);
   takes_snippets_ = snippets.is_boolean() && snippets.get<bool>();
@@ -47,7 +30,7 @@ json Requests::initialize(const json& params) {
   for (const json& resources : get("/initializationOptions/resources", json::array())) {
     if (resources.is_string()) workspace_.add_resources(folder / resources.get<std::string>());
   }
-  const bool is_utf8 = workspace_.encoding() == Encoding::utf8;
+  const bool is_utf8 = workspace_.unit() == ColumnUnit::utf8;
   return {{"positionEncoding", is_utf8 ? "utf-8" : "utf-16"},
           {"semanticTokensProvider",
            {{"legend", {{"tokenTypes", token_types}, {"tokenModifiers", json::array()}}},
@@ -64,8 +47,21 @@ json Requests::initialize(const json& params) {
 }
 
 json Requests::handle(const std::string& method, const json& params) {
-  const auto found = methods_.find(method);
-  if (found == methods_.end()) throw RequestError(method_not_found, "no method " + method);
+  using Answer = json (Requests::*)(const json&);
+  static const std::map<std::string, Answer> methods = {
+      {"textDocument/completion", &Requests::completion},
+      {"textDocument/hover", &Requests::hover},
+      {"textDocument/definition", &Requests::definition},
+      {"textDocument/references", &Requests::references},
+      {"textDocument/documentHighlight", &Requests::highlights},
+      {"textDocument/prepareRename", &Requests::prepare_rename},
+      {"textDocument/rename", &Requests::rename},
+      {"textDocument/documentSymbol", &Requests::symbols},
+      {"textDocument/semanticTokens/full", &Requests::tokens},
+      {"textDocument/formatting", &Requests::formatting},
+  };
+  const auto found = methods.find(method);
+  if (found == methods.end()) throw RequestError(method_not_found, "no method " + method);
   return (this->*found->second)(params);
 }
 
@@ -87,7 +83,7 @@ std::vector<json> Requests::diagnostics_of(const std::vector<FileDiagnostics>& f
   std::vector<json> notifications;
   notifications.reserve(files.size());
   for (const FileDiagnostics& file : files)
-    notifications.push_back(diagnostics_json(file, workspace_.encoding()));
+    notifications.push_back(diagnostics_json(file, workspace_.unit()));
   return notifications;
 }
 
@@ -99,7 +95,7 @@ Document& Requests::document_of(const json& params) {
 }
 
 std::uint32_t Requests::byte_of(const Document& document, const json& params) const {
-  return byte_at(*document.source, position_of_json(params.at("position")), workspace_.encoding());
+  return document.places.byte_at(position_of_json(params.at("position")), workspace_.unit());
 }
 
 void Requests::open(const json& params) {
@@ -121,10 +117,8 @@ void Requests::change(const json& params) {
 
 json Requests::completion(const json& params) {
   Document& document = document_of(params);
-  const CompletionList list = complete(workspace_.program(document), byte_of(document, params),
-                                       workspace_.options(), reference_);
-  const Range range{position_of(*document.source, list.begin, workspace_.encoding()),
-                    position_of(*document.source, list.end, workspace_.encoding())};
+  const CompletionList list = workspace_.service(document).complete(byte_of(document, params));
+  const Range range = range_of(document.places, {list.begin, list.end}, workspace_.unit());
   json items = json::array();
   for (const Completion& item : list.items)
     items.push_back(completion_json(item, range, takes_snippets_));
@@ -133,81 +127,81 @@ json Requests::completion(const json& params) {
 
 json Requests::hover(const json& params) {
   Document& document = document_of(params);
-  const auto hover = hover_at(workspace_.program(document), byte_of(document, params), reference_);
+  const auto hover = workspace_.service(document).hover(byte_of(document, params));
   if (!hover) return nullptr;
   return {{"contents", {{"kind", "markdown"}, {"value", hover->markdown}}},
-          {"range", to_json(range_of(*document.source, hover->span, workspace_.encoding()))}};
+          {"range", to_json(range_of(document.places, hover->span, workspace_.unit()))}};
 }
 
 json Requests::definition(const json& params) {
   Document& document = document_of(params);
-  const auto place = definition_at(workspace_.program(document), byte_of(document, params));
-  if (!place) return nullptr;
-  return location_json(*place, workspace_);
+  const auto location = workspace_.service(document).definition(byte_of(document, params));
+  if (!location) return nullptr;
+  return LocationWriter(workspace_).write(*location);
 }
 
 json Requests::references(const json& params) {
   Document& document = document_of(params);
-  json locations = json::array();
-  for (const Place& place : places_of(workspace_.program(document), byte_of(document, params)))
-    locations.push_back(location_json(place, workspace_));
-  return locations;
+  LocationWriter writer(workspace_);
+  json result = json::array();
+  for (const ScriptLocation& location :
+       workspace_.service(document).places(byte_of(document, params)))
+    result.push_back(writer.write(location));
+  return result;
 }
 
 json Requests::highlights(const json& params) {
   Document& document = document_of(params);
   json result = json::array();
-  for (const Place& place : places_of(workspace_.program(document), byte_of(document, params))) {
-    if (place.file == document.name)
+  for (const ScriptLocation& location :
+       workspace_.service(document).places(byte_of(document, params))) {
+    if (location.file == document.name)
       result.push_back(
-          {{"range", to_json(range_of(*place.source, place.span, workspace_.encoding()))}});
+          {{"range", to_json(range_of(document.places, location.span, workspace_.unit()))}});
   }
   return result;
 }
 
 json Requests::prepare_rename(const json& params) {
   Document& document = document_of(params);
-  const auto span = renamable_at(workspace_.program(document), byte_of(document, params));
-  if (!span) return nullptr;
-  return to_json(range_of(*document.source, *span, workspace_.encoding()));
+  const auto span = workspace_.service(document).renamable_name(byte_of(document, params));
+  return span ? to_json(range_of(document.places, *span, workspace_.unit())) : json(nullptr);
 }
 
 json Requests::rename(const json& params) {
   Document& document = document_of(params);
   const auto new_name = params.at("newName").get<std::string>();
   try {
-    const std::vector<Place> places =
-        workspace_.rename(document, byte_of(document, params), new_name);
+    LocationWriter writer(workspace_);
     json changes = json::object();
-    for (const Place& place : places) {
-      json location = location_json(place, workspace_);
-      changes[location.at("uri").get<std::string>()].push_back(
-          {{"range", std::move(location.at("range"))}, {"newText", new_name}});
+    for (const ScriptLocation& location : workspace_.service(document).rename(
+             byte_of(document, params), new_name, workspace_.services())) {
+      json written = writer.write(location);
+      changes[written.at("uri").get<std::string>()].push_back(
+          {{"range", std::move(written.at("range"))}, {"newText", new_name}});
     }
     return {{"changes", std::move(changes)}};
-  } catch (const std::invalid_argument& error) {
+  } catch (const Error& error) {
     throw RequestError(request_failed, error.what());
   }
 }
 
 json Requests::symbols(const json& params) {
   Document& document = document_of(params);
-  json result = json::array();
-  for (const DocumentSymbol& symbol : document_symbols(workspace_.program(document)))
-    result.push_back(symbol_json(symbol, *document.source, workspace_.encoding()));
-  return result;
+  return symbols_json(workspace_.service(document).tree(), document.places, workspace_.unit());
 }
 
 json Requests::tokens(const json& params) {
-  return {
-      {"data", semantic_tokens(workspace_.program(document_of(params)), workspace_.encoding())}};
+  Document& document = document_of(params);
+  return {{"data", semantic_tokens(workspace_.service(document).tokens(), document.places,
+                                   workspace_.unit())}};
 }
 
 json Requests::formatting(const json& params) {
   const Document& document = document_of(params);
-  const auto formatted = format_script(document.text(), document.name).text;
+  const auto formatted = format_script(document.text, document.name).text;
   if (!formatted) return nullptr;
-  return edits_json(*document.source, *formatted, workspace_.encoding());
+  return edits_json(document, *formatted, workspace_.unit());
 }
 
 }  // namespace crt::lsp

@@ -10,11 +10,8 @@
 #include <vector>
 
 #include "lsp/workspace.hpp"
-#include "service/reference.hpp"
 
 namespace crt::lsp {
-
-using service::Reference;
 
 /// A RequestError is the answer to a request that cannot be done.
 struct RequestError : std::runtime_error {
@@ -35,8 +32,6 @@ constexpr int request_failed = -32803;
 
 class Requests {
  public:
-  Requests();
-
   /// Takes what the client can, and returns what the server can.
   nlohmann::json initialize(const nlohmann::json& params);
 
@@ -71,9 +66,7 @@ class Requests {
   std::vector<Json> diagnostics_of(const std::vector<FileDiagnostics>& files) const;
 
   Workspace workspace_;
-  Reference reference_;
   bool takes_snippets_ = false;
-  std::map<std::string, Json (Requests::*)(const Json&)> methods_;
 };
 
 }  // namespace crt::lsp

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <array>
+#include <crt/language_service.hpp>
+#include <crt/text_places.hpp>
 #include <cstdint>
 #include <string_view>
 #include <vector>
-
-#include "lsp/positions.hpp"
-#include "service/program.hpp"
 
 namespace crt::lsp {
 
@@ -16,8 +15,9 @@ constexpr std::array<std::string_view, 9> token_types = {"comment",  "string",  
                                                          "keyword",  "class",     "property",
                                                          "variable", "parameter", "function"};
 
-/// Returns the tokens of the main script as the protocol has them: five numbers each, of which the
-/// first two are the distance from the token before.
-std::vector<std::uint32_t> semantic_tokens(const service::Program& program, Encoding encoding);
+/// Returns the tokens of a text as the protocol has them: five numbers each, of which the first two
+/// are the distance from the token before.
+std::vector<std::uint32_t> semantic_tokens(const std::vector<ScriptToken>& tokens,
+                                           const TextPlaces& places, ColumnUnit unit);
 
 }  // namespace crt::lsp

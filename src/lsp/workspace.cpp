@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lsp/uri.hpp"
-#include "service/checker.hpp"
 
 namespace crt::lsp {
 
@@ -15,11 +14,21 @@ bool same(const Diagnostic& a, const Diagnostic& b) {
   return a.severity == b.severity && a.message == b.message && a.place == b.place;
 }
 
+void set_text(Document& document, std::string text) {
+  document.text = std::move(text);
+  document.places = TextPlaces(document.text);
+}
+
+/// Has a document looked at again.
+void forget(Document& document) {
+  document.service.reset();
+  document.is_to_check = true;
+}
+
 }  // namespace
 
-void Workspace::set_text(Document& document, std::string text) {
-  document.map = std::make_unique<lang::SourceMap>();
-  document.source = &document.map->add(document.name, std::move(text));
+Range range_of(const TextPlaces& places, TextSpan span, ColumnUnit unit) {
+  return {places.position_of(span.begin, unit), places.position_of(span.end, unit)};
 }
 
 void Workspace::open(const std::string& uri, std::int64_t version, std::string text) {
@@ -29,8 +38,7 @@ void Workspace::open(const std::string& uri, std::int64_t version, std::string t
   document.name = document.path.empty() ? uri : document.path.string();
   document.version = version;
   set_text(document, std::move(text));
-  document.program.reset();
-  document.is_to_check = true;
+  forget(document);
   invalidate(document.path);
 }
 
@@ -41,15 +49,12 @@ void Workspace::change(Document& document, std::int64_t version,
       set_text(document, change.text);
       continue;
     }
-    const std::uint32_t begin = byte_at(*document.source, change.range->start, encoding_);
-    const std::uint32_t end =
-        std::max(begin, byte_at(*document.source, change.range->end, encoding_));
-    std::string text = document.text();
-    set_text(document, text.replace(begin, end - begin, change.text));
+    const std::uint32_t begin = document.places.byte_at(change.range->start, unit_);
+    const std::uint32_t end = std::max(begin, document.places.byte_at(change.range->end, unit_));
+    set_text(document, document.text.replace(begin, end - begin, change.text));
   }
   document.version = version;
-  document.program.reset();
-  document.is_to_check = true;
+  forget(document);
   invalidate(document.path);
 }
 
@@ -57,17 +62,12 @@ void Workspace::change(Document& document, std::int64_t version,
 void Workspace::invalidate(const std::filesystem::path& path) {
   if (path.empty()) return;
   for (auto& [uri, document] : documents_) {
-    if (!document.program || !document.program->has_file(path)) continue;
-    document.program.reset();
-    document.is_to_check = true;
+    if (document.service && document.service->has_file(path)) forget(document);
   }
 }
 
 void Workspace::files_changed() {
-  for (auto& [uri, document] : documents_) {
-    document.program.reset();
-    document.is_to_check = true;
-  }
+  for (auto& [uri, document] : documents_) forget(document);
 }
 
 std::vector<FileDiagnostics> Workspace::close(const std::string& uri) {
@@ -86,28 +86,28 @@ Document* Workspace::find(const std::string& uri) {
   return document == documents_.end() ? nullptr : &document->second;
 }
 
-std::vector<Document*> Workspace::documents() {
-  std::vector<Document*> documents;
-  for (auto& [uri, document] : documents_) documents.push_back(&document);
-  return documents;
+const LanguageService& Workspace::service(Document& document) const {
+  if (!document.service)
+    document.service = std::make_unique<LanguageService>(document.text, document.name, options());
+  return *document.service;
 }
 
-const Program& Workspace::program(Document& document) const {
-  if (!document.program)
-    document.program = std::make_unique<Program>(document.text(), document.name, options());
-  return *document.program;
+std::vector<const LanguageService*> Workspace::services() {
+  std::vector<const LanguageService*> services;
+  for (auto& [uri, document] : documents_) services.push_back(&service(document));
+  return services;
 }
 
+/// Returns options by which scripts find their files: open texts before those on the disk.
 ScriptOptions Workspace::options() const {
   ScriptOptions options;
-  service::lower_limits(options.limits);
   options.resource_directories = resources_;
   options.open_file = [this](const std::filesystem::path& path) {
     std::optional<std::vector<std::byte>> content;
     const auto document = std::find_if(documents_.begin(), documents_.end(),
                                        [&](const auto& open) { return open.second.path == path; });
     if (document == documents_.end()) return content;
-    const std::string& text = document->second.text();
+    const std::string& text = document->second.text;
     const auto* begin = reinterpret_cast<const std::byte*>(text.data());
     content.emplace(begin, begin + text.size());
     return content;
@@ -115,26 +115,17 @@ ScriptOptions Workspace::options() const {
   return options;
 }
 
-std::vector<Place> Workspace::rename(Document& document, std::uint32_t byte,
-                                     const std::string& new_name) {
-  std::vector<Place> places = rename_at(program(document), byte, new_name, options());
-  std::set<std::pair<std::string, std::uint32_t>> known;
-  for (const Place& place : places)
-    known.emplace(place.file, place.span.begin - place.source->base);
-  const Place first = *definition_at(program(document), byte);
-  const std::uint32_t first_byte = first.span.begin - first.source->base;
-  for (auto& [uri, other] : documents_) {
-    if (&other == &document) continue;
-    const Program& others = program(other);
-    for (const lang::Source* source : others.all_sources()) {
-      if (source->name != first.file) continue;
-      for (const Place& place : rename_at(others, source->base + first_byte, new_name, options())) {
-        if (known.emplace(place.file, place.span.begin - place.source->base).second)
-          places.push_back(place);
-      }
+std::string_view Workspace::text_of(const std::string& name) const {
+  for (const auto& [uri, document] : documents_) {
+    if (document.name == name) return document.text;
+  }
+  for (const auto& [uri, document] : documents_) {
+    if (!document.service) continue;
+    for (const ScriptFile& file : document.service->files()) {
+      if (file.name == name) return file.text;
     }
   }
-  return places;
+  return {};
 }
 
 bool Workspace::has_unchecked() const {
@@ -147,7 +138,7 @@ std::vector<FileDiagnostics> Workspace::check_next() {
     if (!std::exchange(document.is_to_check, false)) continue;
     ByFile found;
     found[uri];  // where nothing is wrong any more, that is said, too
-    for (Diagnostic& diagnostic : service::check_script(program(document), options()))
+    for (Diagnostic& diagnostic : service(document).diagnostics())
       found[uri_of_name(diagnostic.place.file)].push_back(std::move(diagnostic));
     return replace_found(uri, std::move(found));
   }

@@ -2,25 +2,28 @@
 // of them are to be checked again.
 #pragma once
 
+#include <crt/language_service.hpp>
 #include <crt/script.hpp>
+#include <crt/text_places.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
-
-#include "lang/source_map.hpp"
-#include "lsp/positions.hpp"
-#include "service/navigation.hpp"
-#include "service/program.hpp"
 
 namespace crt::lsp {
 
-using service::Place;
-using service::Program;
+/// A Range is a piece of a text.
+struct Range {
+  LineColumn start;
+  LineColumn end;
+};
+
+/// Returns the range of a piece of a text.
+Range range_of(const TextPlaces& places, TextSpan span, ColumnUnit unit);
 
 /// A Document is a text that is open in the editor.
 struct Document {
@@ -28,14 +31,11 @@ struct Document {
   std::filesystem::path path;  ///< empty for a text that has no file
   std::string name;            ///< its path, or what stands for it
   std::int64_t version = 0;
-  /// Has this one source. It is replaced with every change.
-  std::unique_ptr<lang::SourceMap> map;
-  const lang::Source* source = nullptr;
+  std::string text;
+  TextPlaces places{""};  ///< of the text
   /// Is absent until it is asked for after a change.
-  std::unique_ptr<Program> program;
+  std::unique_ptr<LanguageService> service;
   bool is_to_check = true;
-
-  const std::string& text() const { return source->text; }
 };
 
 /// A Change replaces a range of a text, or all of it.
@@ -52,8 +52,9 @@ struct FileDiagnostics {
 
 class Workspace {
  public:
-  void set_encoding(Encoding encoding) { encoding_ = encoding; }
-  Encoding encoding() const { return encoding_; }
+  void set_unit(ColumnUnit unit) { unit_ = unit; }
+  /// Returns what the columns of ranges count.
+  ColumnUnit unit() const { return unit_; }
   void add_resources(std::filesystem::path folder) { resources_.push_back(std::move(folder)); }
 
   void open(const std::string& uri, std::int64_t version, std::string text);
@@ -65,19 +66,16 @@ class Workspace {
 
   /// Returns an open document, or null.
   Document* find(const std::string& uri);
-  std::vector<Document*> documents();
 
-  const Program& program(Document& document) const;
+  const LanguageService& service(Document& document) const;
+  /// Returns the services of all open documents.
+  std::vector<const LanguageService*> services();
 
-  /// Returns options by which scripts find their files: open texts before those on the disk.
-  ScriptOptions options() const;
+  /// Returns the text of a script that is open, or that one of those imports. It may be empty.
+  std::string_view text_of(const std::string& name) const;
 
-  /// Returns the URI of a source by its name: an open document's as the editor wrote it.
+  /// Returns the URI of a script by its name: an open document's as the editor wrote it.
   std::string uri_of_name(const std::string& name) const;
-
-  /// Returns the places that get the new name, also those in other open documents that see it.
-  /// Throws std::invalid_argument as rename_at() does.
-  std::vector<Place> rename(Document& document, std::uint32_t byte, const std::string& new_name);
 
   bool has_unchecked() const;
   /// Checks a document that waits for it, and returns the files whose diagnostics are new.
@@ -86,11 +84,11 @@ class Workspace {
  private:
   using ByFile = std::map<std::string, std::vector<Diagnostic>>;
 
-  void set_text(Document& document, std::string text);
+  ScriptOptions options() const;
   void invalidate(const std::filesystem::path& path);
   std::vector<FileDiagnostics> replace_found(const std::string& uri, ByFile found);
 
-  Encoding encoding_ = Encoding::utf16;
+  ColumnUnit unit_ = ColumnUnit::utf16;
   std::vector<std::filesystem::path> resources_;
   std::map<std::string, Document> documents_;
   /// What was found wrong, by the document that was checked and by the URI that it is about.

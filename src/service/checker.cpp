@@ -36,19 +36,42 @@ bool is_of_low_limit(const Diagnostic& diagnostic) {
       [&](std::string_view beginning) { return diagnostic.message.starts_with(beginning); });
 }
 
-/// Gives a tiny picture for each file that is there and is no script. Decoding a large one would
+constexpr std::array<std::string_view, 16> picture_endings = {
+    ".png", ".jpg", ".jpeg", ".exr", ".hdr", ".tif", ".tiff", ".tga",
+    ".bmp", ".gif", ".webp", ".pfm", ".ppm", ".pgm", ".dds",  ".jp2"};
+constexpr std::array<std::string_view, 5> mesh_endings = {".obj", ".ply", ".stl", ".off", ".3mf"};
+
+/// The content of a mesh file says what its format is. This is a closed mesh.
+constexpr std::string_view tiny_mesh =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+std::vector<std::byte> bytes_of(std::string_view text) {
+  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+  return {begin, begin + text.size()};
+}
+
+/// Gives something tiny for each picture and mesh file that is there. Decoding a large one would
 /// take longer than typing.
-class TinyPictures {
+class TinyFiles {
  public:
-  explicit TinyPictures(decltype(ScriptOptions::open_file) open) : open_(std::move(open)) {}
+  explicit TinyFiles(decltype(ScriptOptions::open_file) open) : open_(std::move(open)) {}
 
   std::optional<std::vector<std::byte>> operator()(const fs::path& path) {
     if (open_) {
       if (auto content = open_(path)) return content;
     }
+    std::string ending = path.extension().string();
+    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const auto is_one_of = [&](const auto& endings) {
+      return std::find(endings.begin(), endings.end(), ending) != endings.end();
+    };
+    const bool is_mesh = is_one_of(mesh_endings);
     std::error_code failed;
-    if (path.extension() == ".crt" || !fs::is_regular_file(path, failed)) return std::nullopt;
-    if (picture_->empty()) *picture_ = Image(1, 1).encode("png");
+    if ((!is_mesh && !is_one_of(picture_endings)) || !fs::is_regular_file(path, failed))
+      return std::nullopt;
+    if (is_mesh) return bytes_of(tiny_mesh);
+    // A height field has at least so many pixels.
+    if (picture_->empty()) *picture_ = Image(2, 2).encode("png");
     return *picture_;
   }
 
@@ -66,6 +89,14 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+std::vector<Diagnostic> check_alone(Program& program, const ScriptOptions& options) {
+  const lang::Source& main = program.main();
+  const auto parsed = program.parsed_main();
+  return (parsed ? lang::run_parsed(main.text, main.name, options, *parsed)
+                 : run_script(main.text, main.name, options))
+      .diagnostics;
+}
+
 /// Checks a script that others import as such: by a script that does nothing else.
 std::vector<Diagnostic> check_import(const lang::Source& source, ScriptOptions& options) {
   const fs::path path = source.name;
@@ -73,8 +104,7 @@ std::vector<Diagnostic> check_import(const lang::Source& source, ScriptOptions& 
     return run_script(source.text + "\nScene { }\n", source.name, options).diagnostics;
   options.open_file = [&path, &source, open = options.open_file](const fs::path& asked) {
     if (asked != path) return open(asked);
-    const auto* begin = reinterpret_cast<const std::byte*>(source.text.data());
-    return std::optional<std::vector<std::byte>>({begin, begin + source.text.size()});
+    return std::optional(bytes_of(source.text));
   };
   const std::string importer = "import " + quoted(path.filename().string()) + "\nScene { }\n";
   const fs::path name = path.parent_path() / (path.filename().string() + " as it is imported");
@@ -94,7 +124,7 @@ void lower_limits(ScriptLimits& limits) {
   limits.errors = 100;
 }
 
-std::vector<Diagnostic> check_script(const Program& program, ScriptOptions options) {
+std::vector<Diagnostic> check_script(Program& program, ScriptOptions options) {
   const lang::Source& main = program.main();
   if (main.text.size() > longest_checked) {
     return {{.severity = Severity::warning,
@@ -104,11 +134,10 @@ std::vector<Diagnostic> check_script(const Program& program, ScriptOptions optio
              .place = {.file = main.name, .line = 1, .column = 1}}};
   }
   lower_limits(options.limits);
-  options.open_file = TinyPictures(options.open_file);
+  options.open_file = TinyFiles(options.open_file);
   options.print = [](std::string_view) {};
-  std::vector<Diagnostic> diagnostics = stands_alone(program.script())
-                                            ? run_script(main.text, main.name, options).diagnostics
-                                            : check_import(main, options);
+  std::vector<Diagnostic> diagnostics =
+      stands_alone(program.script()) ? check_alone(program, options) : check_import(main, options);
   std::erase_if(diagnostics, is_of_low_limit);
   return diagnostics;
 }

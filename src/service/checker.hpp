@@ -20,7 +20,7 @@ constexpr std::size_t longest_checked = std::size_t{1} << 20;
 void lower_limits(ScriptLimits& limits);
 
 /// Returns what is wrong with a script and what it imports. What a low limit ends is no error. A
-/// script without Scene and Settings is one for others to import. Images are not decoded.
-std::vector<Diagnostic> check_script(const Program& program, ScriptOptions options);
+/// script without Scene and Settings is one for others to import. Pictures and meshes are not read.
+std::vector<Diagnostic> check_script(Program& program, ScriptOptions options);
 
 }  // namespace crt::service

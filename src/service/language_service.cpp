@@ -1,10 +1,14 @@
 #include <algorithm>
+#include <crt/error.hpp>
 #include <crt/language_service.hpp>
+#include <mutex>
+#include <set>
 #include <utility>
 
 #include "format/format.hpp"
 #include "lang/objects.hpp"
 #include "lang/settings.hpp"
+#include "lang/utf8.hpp"
 #include "service/checker.hpp"
 #include "service/completion.hpp"
 #include "service/hover.hpp"
@@ -31,6 +35,20 @@ TextSpan span_in(const lang::Source& source, lang::Span span) {
 ScriptLocation location_of(const service::Place& place) {
   return {place.file, place.source ? span_in(*place.source, place.span) : TextSpan{}};
 }
+
+/// A Renaming collects places, each once, that several programs know.
+struct Renaming {
+  std::vector<ScriptLocation> locations;
+  std::set<std::pair<std::string, std::uint32_t>> known;
+
+  void add(const std::vector<service::Place>& places) {
+    for (const service::Place& place : places) {
+      ScriptLocation location = location_of(place);
+      if (known.emplace(location.file, location.span.begin).second)
+        locations.push_back(std::move(location));
+    }
+  }
+};
 
 SymbolKind kind_of(lang::NameKind kind) {
   switch (kind) {
@@ -83,6 +101,8 @@ struct LanguageService::State {
 
   ScriptOptions options;
   service::Program program;
+  std::once_flag checked;
+  std::vector<Diagnostic> diagnostics;
 
   /// Bytes behind the end are the end.
   std::uint32_t byte(std::uint32_t place) const {
@@ -98,6 +118,17 @@ LanguageService::LanguageService(const std::string& text, const std::string& nam
 
 LanguageService::~LanguageService() = default;
 LanguageService::LanguageService(LanguageService&&) noexcept = default;
+
+std::vector<ScriptFile> LanguageService::files() const {
+  std::vector<ScriptFile> files;
+  for (const lang::Source* source : state_->program.all_sources())
+    files.push_back({source->name, source->text});
+  return files;
+}
+
+bool LanguageService::has_file(const std::filesystem::path& path) const {
+  return state_->program.has_file(path);
+}
 
 std::vector<ScriptToken> LanguageService::tokens() const {
   return service::tokens_of(state_->program);
@@ -145,6 +176,34 @@ std::vector<ScriptLocation> LanguageService::places(std::uint32_t byte) const {
   return locations;
 }
 
+std::optional<TextSpan> LanguageService::renamable_name(std::uint32_t byte) const {
+  const auto span = service::renamable_at(state_->program, state_->byte(byte));
+  return span ? std::optional(span_in(state_->program.main(), *span)) : std::nullopt;
+}
+
+std::vector<ScriptLocation> LanguageService::rename(
+    std::uint32_t byte, const std::string& new_name,
+    const std::vector<const LanguageService*>& others) const {
+  const service::Program& program = state_->program;
+  byte = state_->byte(byte);
+  Renaming renaming;
+  renaming.add(service::rename_at(program, byte, new_name, state_->options));
+  const service::Place first = *service::definition_at(program, byte);
+  for (const LanguageService* other : others) {
+    if (other == this) continue;
+    for (const lang::Source* source : other->state_->program.all_sources()) {
+      if (source->name != first.file) continue;
+      if (source->text != first.source->text)
+        throw Error(ErrorCode::invalid_argument,
+                    "an open script knows another text of '" + lang::printable(first.file) + "'");
+      renaming.add(service::rename_at(other->state_->program,
+                                      first.span.begin - first.source->base + source->base,
+                                      new_name, other->state_->options));
+    }
+  }
+  return std::move(renaming.locations);
+}
+
 CompletionList LanguageService::complete(std::uint32_t byte) const {
   return service::complete(state_->program, state_->byte(byte), state_->options, reference());
 }
@@ -156,7 +215,10 @@ std::optional<ScriptHover> LanguageService::hover(std::uint32_t byte) const {
 }
 
 std::vector<Diagnostic> LanguageService::diagnostics() const {
-  return service::check_script(state_->program, state_->options);
+  std::call_once(state_->checked, [this] {
+    state_->diagnostics = service::check_script(state_->program, state_->options);
+  });
+  return state_->diagnostics;
 }
 
 }  // namespace crt

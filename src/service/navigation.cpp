@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <crt/error.hpp>
 #include <cstddef>
 #include <map>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -30,6 +30,10 @@ Place place_of(const Program& program, lang::Span span) {
 const lang::NameUse* declared_use_at(const Program& program, std::uint32_t byte) {
   const lang::NameUse* use = lang::use_at(program.names(), byte);
   return use && use->declared != lang::NameUse::nothing ? use : nullptr;
+}
+
+Error wrong(const std::string& message) {
+  return Error(ErrorCode::invalid_argument, message);
 }
 
 /// Says whether a text is one name, as the lexer sees it.
@@ -99,21 +103,20 @@ std::vector<Place> places_of(const Program& program, std::uint32_t byte) {
 
 std::optional<lang::Span> renamable_at(const Program& program, std::uint32_t byte) {
   const lang::NameUse* use = declared_use_at(program, byte);
-  return use ? std::optional(use->span) : std::nullopt;
+  return use && definition_at(program, byte) ? std::optional(use->span) : std::nullopt;
 }
 
 std::vector<Place> rename_at(const Program& program, std::uint32_t byte,
                              const std::string& new_name, const ScriptOptions& options) {
   std::vector<Place> places = places_of(program, byte);
-  if (places.empty()) throw std::invalid_argument("there is no name here that a script sets");
-  if (!definition_at(program, byte))
-    throw std::invalid_argument("this name is set where it cannot be changed");
+  if (places.empty()) throw wrong("there is no name here that a script sets");
+  if (!definition_at(program, byte)) throw wrong("this name is set where it cannot be changed");
   // In what was not parsed there may be more of it.
   if (!program.is_whole())
-    throw std::invalid_argument("a name can be changed when the script has no syntax errors");
+    throw wrong("a name can be changed when the script has no syntax errors");
   const std::string shown = lang::abbreviated(new_name);
   if (!is_name(new_name, program.compat()))
-    throw std::invalid_argument(
+    throw wrong(
         fmt::format("'{}' is no name: names begin with a small letter and are no keywords", shown));
   const auto texts = renamed_texts(program, places, new_name);
   ScriptOptions renamed = options;
@@ -129,30 +132,8 @@ std::vector<Place> rename_at(const Program& program, std::uint32_t byte,
   };
   const Program after(texts.at(program.main().name), program.main().name, renamed);
   if (!same_meanings(program.names(), after.names()))
-    throw std::invalid_argument(
-        fmt::format("'{}' already means something where this name is used", shown));
+    throw wrong(fmt::format("'{}' already means something where this name is used", shown));
   return places;
-}
-
-std::vector<DocumentSymbol> document_symbols(const Program& program) {
-  std::vector<DocumentSymbol> symbols;
-  for (const lang::Statement& statement : program.script().statements.statements) {
-    const auto add_block = [&](const char* name, lang::Span keyword) {
-      symbols.push_back({name, false, true, statement.span, keyword});
-    };
-    if (const auto* settings = std::get_if<lang::SettingsBlock>(&statement.node))
-      add_block("Settings", settings->keyword);
-    if (const auto* scene = std::get_if<lang::SceneBlock>(&statement.node))
-      add_block("Scene", scene->keyword);
-    const auto* expression = std::get_if<lang::ExpressionStatement>(&statement.node);
-    const auto* assignment =
-        expression ? std::get_if<lang::Assignment>(&expression->expression->node) : nullptr;
-    if (!assignment) continue;
-    const bool is_macro = std::holds_alternative<lang::MacroLiteral>(assignment->value->node);
-    symbols.push_back({std::string(program.symbols().name(assignment->name.symbol)), is_macro,
-                       false, statement.span, assignment->name.span});
-  }
-  return symbols;
 }
 
 }  // namespace crt::service

@@ -27,25 +27,13 @@ std::optional<Place> definition_at(const Program& program, std::uint32_t byte);
 /// Returns all places of the name at a byte of the main script, in all sources.
 std::vector<Place> places_of(const Program& program, std::uint32_t byte);
 
-/// Returns the span of the name at a byte if it can be renamed.
+/// Returns the span of the name at a byte of the main script if it can be renamed.
 std::optional<lang::Span> renamable_at(const Program& program, std::uint32_t byte);
 
 /// Returns the places that get the new name. `byte` may also be in another source, behind its base.
-/// Throws std::invalid_argument, with what is wrong, if
-/// the new name is none, or if with it any name would mean something else.
+/// Throws Error (invalid_argument) if the new name is none, or if with it any name would mean
+/// something else.
 std::vector<Place> rename_at(const Program& program, std::uint32_t byte,
                              const std::string& new_name, const ScriptOptions& options);
-
-/// A DocumentSymbol is a name of the main script with what it is set to.
-struct DocumentSymbol {
-  std::string name;
-  bool is_macro = false;
-  bool is_block = false;
-  lang::Span whole;
-  lang::Span span;
-};
-
-/// Lists what is set at the top level of the main script, and its blocks.
-std::vector<DocumentSymbol> document_symbols(const Program& program);
 
 }  // namespace crt::service

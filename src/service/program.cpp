@@ -38,20 +38,21 @@ Program::Program(const std::string& text, const std::string& name, const ScriptO
   main_ = &sources_.add(name, text, directory);
   compat_ = compat_of(sources_, *main_, options_);
   paths_ = {canonical_or_given(name), name};
-  parse(*main_);
+  is_main_clean_ = parse(*main_);
   lang::Reporter unheard(sources_, all_errors);
   tokens_ = lang::read_tokens(*main_, compat_, symbols_, unheard);
   names_ = lang::map_names(scripts_.front(),
                            [this](const lang::Import& import) { return import_script(import); });
 }
 
-void Program::parse(const lang::Source& source) {
+bool Program::parse(const lang::Source& source) {
   // What is wrong is reported when the script is checked.
   lang::Reporter unheard(sources_, all_errors);
   all_sources_.push_back(&source);
   scripts_.push_back(
       lang::parse_partially(source, lang::PartialEnd::text, compat_, symbols_, unheard).script);
   is_whole_ = is_whole_ && !unheard.has_errors();
+  return unheard.diagnostics().empty();
 }
 
 /// Parses an imported script when it is met first. A script is run only once, so later it is none.

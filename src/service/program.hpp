@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include "lang/name_map.hpp"
 #include "lang/partial_parse.hpp"
 #include "lang/reporter.hpp"
+#include "lang/run_parsed.hpp"
 #include "lang/source_map.hpp"
 #include "lang/symbol.hpp"
 #include "lang/syntax.hpp"
@@ -38,6 +40,13 @@ class Program {
   /// Says whether all of it was parsed: no source has a syntax error.
   bool is_whole() const { return is_whole_; }
 
+  /// Returns the main script for a run, or nothing if the parser has anything to say of it. The run
+  /// changes of the tree what nothing else here reads.
+  std::optional<lang::ParsedScript> parsed_main() {
+    if (!is_main_clean_) return std::nullopt;
+    return lang::ParsedScript{scripts_.front(), symbols_, compat_};
+  }
+
   std::string_view text_of(lang::Span span) const;
 
   /// Returns the token of the main script that an offset is in or just behind, or null.
@@ -55,7 +64,8 @@ class Program {
  private:
   const lang::Script* import_script(const lang::Import& import);
   const lang::Script* import_library(const lang::Import& import);
-  void parse(const lang::Source& source);
+  /// Returns whether the parser found nothing to say.
+  bool parse(const lang::Source& source);
 
   const ScriptOptions options_;
   lang::SourceMap sources_;
@@ -63,6 +73,7 @@ class Program {
   lang::Files files_;
   int compat_ = 0;
   bool is_whole_ = true;
+  bool is_main_clean_ = false;
   const lang::Source* main_ = nullptr;
   std::vector<const lang::Source*> all_sources_;
   std::deque<lang::Script> scripts_;

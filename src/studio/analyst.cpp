@@ -51,7 +51,7 @@ void Analyst::work() {
     if (newest) {
       analysis.reset();
       analysis.emplace(Analysis{*newest, LanguageService(*newest->text, newest->name),
-                                Utf16Places(*newest->text)});
+                                TextPlaces(*newest->text)});
       send_tokens_(*analysis);
       is_diagnosed = false;
     }

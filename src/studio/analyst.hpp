@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <crt/language_service.hpp>
+#include <crt/text_places.hpp>
 #include <cstddef>
 #include <deque>
 #include <functional>
@@ -13,7 +14,6 @@
 #include <thread>
 
 #include "studio/renderer.hpp"
-#include "studio/utf16.hpp"
 
 namespace crt::studio {
 
@@ -21,7 +21,7 @@ namespace crt::studio {
 struct Analysis {
   Revision revision;
   LanguageService service;
-  Utf16Places places;
+  TextPlaces places;
 };
 
 /// A Question is asked about the newest revision when that is analysed.

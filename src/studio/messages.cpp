@@ -7,6 +7,7 @@
 #include <crt/source_code.hpp>
 #include <crt/validate.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -29,7 +30,7 @@ constexpr std::array<const char*, 4> languages = {"cpp", "python", "c", "script"
 constexpr std::array<const char*, 4> projections = {"pinhole", "spherical", "cylindrical",
                                                     "orthographic"};
 
-json span_json(const Utf16Places& places, TextSpan span) {
+json span_json(const TextPlaces& places, TextSpan span) {
   return {places.unit_of(span.begin), places.unit_of(span.end)};
 }
 
@@ -37,7 +38,7 @@ json vector_json(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-json attribute_json(const Utf16Places& places, const ScriptAttribute& attribute) {
+json attribute_json(const TextPlaces& places, const ScriptAttribute& attribute) {
   json result = {{"name", attribute.name},
                  {"nameSpan", span_json(places, attribute.name_span)},
                  {"span", span_json(places, attribute.value_span)},
@@ -48,7 +49,7 @@ json attribute_json(const Utf16Places& places, const ScriptAttribute& attribute)
   return result;
 }
 
-json node_json(const Utf16Places& places, const ScriptNode& node) {
+json node_json(const TextPlaces& places, const ScriptNode& node) {
   json attributes = json::array();
   for (const ScriptAttribute& attribute : node.attributes)
     attributes.push_back(attribute_json(places, attribute));
@@ -61,34 +62,13 @@ json node_json(const Utf16Places& places, const ScriptNode& node) {
           {"attributes", std::move(attributes)}};
 }
 
-/// Returns the byte where a line begins, from 1, and a column that counts code points.
-TextSpan span_of(std::string_view text, const SourcePlace& place) {
-  std::size_t begin = 0;
-  for (int line = 1; line < place.line && begin != std::string_view::npos; ++line) {
-    begin = text.find('\n', begin);
-    if (begin != std::string_view::npos) ++begin;
-  }
-  begin = std::min(begin, text.size());
-  const auto step = [&](std::size_t from, int code_points) {
-    for (; code_points > 0 && from < text.size() && text[from] != '\n'; --code_points) {
-      ++from;
-      while (from < text.size() && (static_cast<unsigned char>(text[from]) & 0xc0U) == 0x80U)
-        ++from;
-    }
-    return from;
-  };
-  begin = step(begin, place.column - 1);
-  return {static_cast<std::uint32_t>(begin),
-          static_cast<std::uint32_t>(step(begin, std::max(place.length, 1)))};
-}
-
-Utf16Places places_of(const View& view) {
-  return Utf16Places(view.revision.text ? std::string_view(*view.revision.text) : "");
+TextPlaces places_of(const View& view) {
+  return TextPlaces(view.revision.text ? std::string_view(*view.revision.text) : "");
 }
 
 /// Returns the first entity that comes from within a piece of the text, or else around it.
 std::size_t entity_within(const View& view, std::uint32_t begin, std::uint32_t end) {
-  const Utf16Places places = places_of(view);
+  const TextPlaces places = places_of(view);
   const TextSpan piece{places.byte_of(begin), places.byte_of(end)};
   const auto is_within = [](const TextSpan& inner, const TextSpan& outer) {
     return outer.begin <= inner.begin && inner.end <= outer.end;
@@ -132,7 +112,7 @@ json diagnostics_message(const Analysis& analysis) {
   json list = json::array();
   for (const Diagnostic& diagnostic : analysis.service.diagnostics()) {
     const bool is_main = diagnostic.place.file == analysis.revision.name;
-    const TextSpan span = is_main ? span_of(*analysis.revision.text, diagnostic.place) : TextSpan{};
+    const TextSpan span = is_main ? analysis.places.span_of(diagnostic.place) : TextSpan{};
     std::string message = diagnostic.message;
     if (!is_main) {
       message.insert(0, ": ");
@@ -253,6 +233,19 @@ json places_json(const Analysis& analysis, std::uint32_t unit) {
   return places;
 }
 
+json rename_json(const Analysis& analysis, std::uint32_t unit, const std::string& name) {
+  json spans = json::array();
+  std::set<std::string> others;
+  for (const ScriptLocation& place : analysis.service.rename(analysis.places.byte_of(unit), name)) {
+    if (place.file == analysis.revision.name) {
+      spans.push_back(span_json(analysis.places, place.span));
+    } else {
+      others.insert(place.file);
+    }
+  }
+  return {{"spans", std::move(spans)}, {"others", others}};
+}
+
 json format_json(const Analysis& analysis) {
   const FormattedScript formatted = format_script(*analysis.revision.text, analysis.revision.name);
   return formatted.text ? json(*formatted.text) : json(nullptr);
@@ -264,7 +257,7 @@ json pick_json(const View& view, double x, double y) {
   const std::optional<Hit> hit = queries.intersect(ray);
   if (!hit || hit->entity_id >= view.places.size()) return nullptr;
   const EntityPlace& place = view.places[hit->entity_id];
-  const Utf16Places places = places_of(view);
+  const TextPlaces places = places_of(view);
   return {{"entity", hit->entity_id},
           {"revision", view.revision.number},
           {"distance", hit->t},

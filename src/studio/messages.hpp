@@ -23,6 +23,9 @@ nlohmann::json completion_json(const Analysis& analysis, std::uint32_t unit);
 nlohmann::json hover_json(const Analysis& analysis, std::uint32_t unit);
 nlohmann::json definition_json(const Analysis& analysis, std::uint32_t unit);
 nlohmann::json places_json(const Analysis& analysis, std::uint32_t unit);
+/// Answers with the places that get a new name, and the other files that have the old one. Throws
+/// Error (invalid_argument) where it cannot be changed.
+nlohmann::json rename_json(const Analysis& analysis, std::uint32_t unit, const std::string& name);
 nlohmann::json format_json(const Analysis& analysis);
 
 /// Answers which entity a place of the picture shows. It is null where there is none.

@@ -56,7 +56,7 @@ class SceneClient : public ViewClient {
     });
     on("view", [this](const json& message) {
       const std::lock_guard lock(mutex_);
-      renderer().set_options(view_options_of(message.at("view"), Utf16Places(*shown_->text)));
+      renderer().set_options(view_options_of(message.at("view"), TextPlaces(*shown_->text)));
     });
     on("look", [](const json&) {});
     on("forget", [](const json&) {});
@@ -103,7 +103,7 @@ class SceneClient : public ViewClient {
     revision_ = revision;
     has_revision_ = true;
     if (message.contains("view"))
-      renderer().set_options(view_options_of(message.at("view"), Utf16Places(text)));
+      renderer().set_options(view_options_of(message.at("view"), TextPlaces(text)));
     send(listing_message(shown_->listing, revision_));
     send({{"type", "diagnostics"}, {"revision", revision_}, {"diagnostics", json::array()}});
     render_shown();

@@ -113,7 +113,7 @@ class StudioClient : public ViewClient {
                                              : folder_->file_of(script_).string();
     const Revision revision{message.at("revision").get<std::uint32_t>(), name, text};
     std::optional<ViewOptions> options;
-    if (message.contains("view")) options = view_options_of(message.at("view"), Utf16Places(*text));
+    if (message.contains("view")) options = view_options_of(message.at("view"), TextPlaces(*text));
     text_ = std::move(text);
     if (!script_.empty() && message.value("script", "") == script_) keep_typed();
     analyst_.set_script(revision);
@@ -141,7 +141,7 @@ class StudioClient : public ViewClient {
 
   void view(const json& message) {
     if (!text_) throw Error(ErrorCode::invalid_argument, "there is no script to be viewed yet");
-    renderer().set_options(view_options_of(message.at("view"), Utf16Places(*text_)));
+    renderer().set_options(view_options_of(message.at("view"), TextPlaces(*text_)));
   }
 
   void ask(const json& message) {
@@ -153,18 +153,32 @@ class StudioClient : public ViewClient {
         {"places", places_json},
         {"preview", preview_json},
         {"format", [](const Analysis& analysis, std::uint32_t) { return format_json(analysis); }}};
-    const auto answer = answers.find(message.at("what").get<std::string>());
-    if (answer == answers.end()) throw Error(ErrorCode::invalid_argument, "nobody can answer this");
+    const auto what = message.at("what").get<std::string>();
+    Answer answer;
+    if (what == "rename") {
+      answer = [name = message.at("name").get<std::string>()](const Analysis& analysis,
+                                                              std::uint32_t at) {
+        return rename_json(analysis, at, name);
+      };
+    } else if (const auto found = answers.find(what); found != answers.end()) {
+      answer = found->second;
+    } else {
+      throw Error(ErrorCode::invalid_argument, "nobody can answer this");
+    }
     const auto unit = message.at("at").get<std::uint32_t>();
     const auto revision = message.at("revision").get<std::uint32_t>();
-    const json& id = message.at("id");
+    const json question = {{"type", "ask"}, {"id", message.at("id")}};
     const bool is_taken =
-        analyst_.ask([this, unit, revision, id, answer](const Analysis& analysis) {
+        analyst_.ask([this, unit, revision, question, answer](const Analysis& analysis) {
           const bool is_old = analysis.revision.number != revision;
-          send({{"type", "answer"},
-                {"id", id},
-                {"revision", analysis.revision.number},
-                {"result", is_old ? json(nullptr) : answer->second(analysis, unit)}});
+          try {
+            send({{"type", "answer"},
+                  {"id", question.at("id")},
+                  {"revision", analysis.revision.number},
+                  {"result", is_old ? json(nullptr) : answer(analysis, unit)}});
+          } catch (const Error& error) {
+            complain(error.what(), question);
+          }
         });
     if (!is_taken) throw Error(ErrorCode::limit, "there are too many questions at once");
   }

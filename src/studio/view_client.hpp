@@ -32,12 +32,13 @@ class ViewClient : public Client {
   /// Says what takes messages of a type.
   void on(const char* type, Handler handler) { handlers_[type] = std::move(handler); }
   void send(const nlohmann::json& message) const;
+  /// Answers a message with what is wrong with it.
+  void complain(const std::string& why, const nlohmann::json& message) const;
   Renderer& renderer() { return renderer_; }
 
  private:
   RenderEvents events(Show show);
   void send_picture(const EncodedPicture& picture);
-  void complain(const std::string& why, const nlohmann::json& message) const;
   void set_camera(const nlohmann::json& message);
   void render(const nlohmann::json& message);
   void pick(const nlohmann::json& message);

@@ -69,7 +69,7 @@ void add_box(json& boxes, const Entity& entity) {
 
 }  // namespace
 
-ViewOptions view_options_of(const json& value, const Utf16Places& places) {
+ViewOptions view_options_of(const json& value, const TextPlaces& places) {
   ViewOptions options;
   options.channel = channel_of(value.at("channel").get<std::string>());
   for (const json& span : value.at("hidden")) {

@@ -2,19 +2,19 @@
 // and about the machine.
 #pragma once
 
+#include <crt/text_places.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "studio/analyst.hpp"
 #include "studio/machine.hpp"
 #include "studio/renderer.hpp"
-#include "studio/utf16.hpp"
 #include "studio/view_options.hpp"
 
 namespace crt::studio {
 
 /// Reads options, whose places are those of a text. Throws what the JSON library throws, and Error
 /// (invalid_argument).
-ViewOptions view_options_of(const nlohmann::json& value, const Utf16Places& places);
+ViewOptions view_options_of(const nlohmann::json& value, const TextPlaces& places);
 
 /// Lists the boxes of what is shown and of what is cut from it, as far as they are found soon.
 /// Sides at infinity are null.

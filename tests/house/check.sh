@@ -69,13 +69,13 @@ check_layers() {
   # The command and the studio may see what speaks with a viewer, which sees the public headers.
   lines_with '^#include [<"](lang|farm|cli|capi|format|service|source|lsp|studio)/' 'src/tev/*'
   lines_with '^#include [<"]tev/' "${code[@]}" | without '^src/(tev/|cli/|studio/main\.cpp)'
-  # The front end is seen by what lays scripts out and by what serves editors, and these by the
-  # command, each by one header. The studio sees the public headers alone.
+  # The front end is seen by what lays scripts out and by what editors ask. The language server and
+  # the studio see the public headers alone, and the command one header of two of these besides.
   lines_with '^#include [<"](format|service|lsp|studio|cli|capi)/' 'src/lang/*'
   lines_with '^#include [<"](format|service|lsp|studio|cli)/' 'src/capi/*'
   lines_with '^#include [<"](service|lsp|studio|cli|capi)/' 'src/format/*'
   lines_with '^#include [<"](lsp|studio|cli|capi)/' 'src/service/*'
-  lines_with '^#include [<"](format|studio|cli|capi)/' 'src/lsp/*'
+  lines_with '^#include [<"](lang|format|service|studio|cli|capi)/' 'src/lsp/*'
   lines_with '^#include [<"](lang|format|service|lsp|cli|capi)/' 'src/studio/*'
   lines_with '^#include [<"](lang|format|service|lsp|studio)/' 'src/cli/*' |
     without '"(format/format|lsp/server)\.hpp"'
@@ -106,7 +106,7 @@ check_umbrella() {
   tracked 'include/crt/*.hpp' | while IFS= read -r header; do
     case ${header##*/} in
       crt.hpp | script.hpp | farm.hpp | language_service.hpp) continue ;;
-      source_code.hpp | studio.hpp) continue ;;
+      text_places.hpp | source_code.hpp | studio.hpp) continue ;;
     esac
     grep -qF "#include <crt/${header##*/}>" include/crt/crt.hpp || echo "$header is not in crt.hpp"
   done

@@ -3,8 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <crt/error.hpp>
 #include <crt/language_service.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -48,6 +54,28 @@ const ScriptAttribute& attribute_of(const ScriptNode& node, const std::string& n
                                   [&](const auto& attribute) { return attribute.name == name; });
   REQUIRE(found != node.attributes.end());
   return *found;
+}
+
+/// Returns options by which scripts find these files and no others.
+ScriptOptions with_files(const std::map<std::string, std::string>& files) {
+  ScriptOptions options;
+  options.open_file = [files](const std::filesystem::path& path) {
+    const auto file = files.find(path.string());
+    if (file == files.end()) return std::optional<std::vector<std::byte>>();
+    const auto* begin = reinterpret_cast<const std::byte*>(file->second.data());
+    return std::optional<std::vector<std::byte>>({begin, begin + file->second.size()});
+  };
+  return options;
+}
+
+/// Puts a new name in at the places of a file.
+std::string with_name(std::string text, const std::vector<ScriptLocation>& places,
+                      const std::string& file, const std::string& name) {
+  for (auto place = places.rbegin(); place != places.rend(); ++place) {
+    if (place->file != file) continue;
+    text.replace(place->span.begin, place->span.end - place->span.begin, name);
+  }
+  return text;
 }
 
 }  // namespace
@@ -146,6 +174,77 @@ TEST_CASE("symbols have their definition and all uses, and a name leads to its d
   CHECK(post->span.begin == place_of("post ="));
   CHECK(service.places(place_of("post =")).size() == 2);
   CHECK_FALSE(service.definition(0));
+}
+
+TEST_CASE("the files are the script and its imports, with their texts") {
+  const LanguageService service("import \"part.crt\"\nimport \"crt/metals\"\n", "/a/main.crt",
+                                with_files({{"/a/part.crt", "size = 1\n"}}));
+  const std::vector<ScriptFile> files = service.files();
+  REQUIRE(files.size() == 3);
+  CHECK(files[0].name == "/a/main.crt");
+  CHECK(files[1].name == "/a/part.crt");
+  CHECK(files[1].text == "size = 1\n");
+  CHECK(files[2].name == "crt/metals");
+  CHECK(service.has_file("/a/main.crt"));
+  CHECK(service.has_file("/a/part.crt"));
+  CHECK_FALSE(service.has_file("/a/other.crt"));
+}
+
+TEST_CASE("the file of a diagnostic is that of an import where that is wrong") {
+  const LanguageService service("import \"part.crt\"\nScene { }\n", "/a/main.crt",
+                                with_files({{"/a/part.crt", "a = \n"}}));
+  REQUIRE(service.diagnostics().size() == 1);
+  CHECK(service.diagnostics()[0].place.file == "/a/part.crt");
+}
+
+TEST_CASE("a new name goes to all places of the old one in its scope") {
+  const LanguageService service(script, "wall.crt");
+  const std::uint32_t use = place_of("n, 0, 0) fov");
+  REQUIRE(service.renamable_name(use));
+  CHECK(marked(*service.renamable_name(use)) == "n");
+  CHECK_FALSE(service.renamable_name(place_of("rgb")));
+  const std::vector<ScriptLocation> places = service.rename(use, "count");
+  CHECK(places.size() == 5);
+  const std::string text = with_name(script, places, "wall.crt", "count");
+  CHECK(text.find("count = 3") != std::string::npos);
+  CHECK(LanguageService(text, "wall.crt").diagnostics().empty());
+}
+
+TEST_CASE("a new name that is none, that means something or that comes too early is refused") {
+  const LanguageService service(script, "wall.crt");
+  const std::uint32_t use = place_of("n = 3");
+  for (const char* name : {"", "Big", "while", "a b", "wood", "vec3"})
+    CHECK_THROWS_AS(service.rename(use, name), Error);
+  CHECK_THROWS_AS(service.rename(place_of("Sphere"), "count"), Error);
+  CHECK_THROWS_AS(LanguageService(script + "b = (1", "wall.crt").rename(use, "count"), Error);
+}
+
+TEST_CASE("a name of an import is changed in all open scripts that import it") {
+  const auto options = with_files({{"/a/part.crt", "size = 1\nlength = size\n"}});
+  const LanguageService part("size = 1\nlength = size\n", "/a/part.crt", options);
+  const LanguageService main("import \"part.crt\"\nScene { print(size) }\n", "/a/main.crt",
+                             options);
+  const LanguageService other("size = 2\n", "/a/other.crt", options);
+  const std::vector<ScriptLocation> all = part.rename(0, "width", {&part, &main, &other});
+  REQUIRE(all.size() == 3);
+  CHECK(std::count_if(all.begin(), all.end(),
+                      [](const auto& place) { return place.file == "/a/part.crt"; }) == 2);
+  CHECK(all[2].file == "/a/main.crt");
+  CHECK(all[2].span == TextSpan{32, 36});
+  // From the script that imports it, those of the import are found without help.
+  CHECK(main.rename(32, "width").size() == 3);
+  CHECK(part.rename(0, "width").size() == 2);
+  // A name that the other script has already.
+  const LanguageService taken("import \"part.crt\"\nwidth = size\n", "/a/taken.crt", options);
+  CHECK_THROWS_AS(part.rename(0, "width", {&taken}), Error);
+}
+
+TEST_CASE("a script that was read before an import changed gets no new names") {
+  const LanguageService main("import \"part.crt\"\nprint(size)\n", "/a/main.crt",
+                             with_files({{"/a/part.crt", "size = 1\n"}}));
+  const LanguageService part("-- Sizes\nsize = 1\n", "/a/part.crt");
+  CHECK_THROWS_AS(part.rename(9, "width", {&main}), Error);
+  CHECK(part.rename(9, "width").size() == 1);
 }
 
 TEST_CASE("completion offers attributes that an object does not have yet") {

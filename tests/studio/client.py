@@ -174,9 +174,9 @@ class Client:
         self.send(type="text", revision=self.revision, text=text)
         return self.revision
 
-    def ask(self, what, at=0):
+    def ask(self, what, at=0, **more):
         self.ids += 1
-        self.send(type="ask", id=self.ids, what=what, at=at, revision=self.revision)
+        self.send(type="ask", id=self.ids, what=what, at=at, revision=self.revision, **more)
         return self.wait("answer", lambda answer: answer["id"] == self.ids)["result"]
 
     def pick(self, x, y):

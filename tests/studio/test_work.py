@@ -127,6 +127,25 @@ class Work(OpenedFolder):
         client.send(type="ask", id=99, what="format", at=0, revision=1)
         self.assertIsNone(client.wait("answer", lambda answer: answer["id"] == 99)["result"])
 
+    def test_a_new_name_goes_to_all_places_or_is_refused(self):
+        (self.folder / "part.crt").write_text("size = 1\n")
+        text = '-- 😀\nimport "part.crt"\nball = size\nScene { print(ball + size) }\n'
+        client = self.start(text)
+        ball = units(text[: text.index("ball")])
+        found = client.ask("rename", ball, name="sphere")
+        self.assertEqual([self.marked(span, text) for span in found["spans"]], ["ball", "ball"])
+        self.assertEqual(found["others"], [])
+        size = units(text[: text.index("size)")])
+        found = client.ask("rename", size, name="width")
+        self.assertEqual([self.marked(span, text) for span in found["spans"]], ["size", "size"])
+        self.assertEqual(found["others"], [str(self.folder.resolve() / "part.crt")])
+        for at, name in ((ball, "size"), (ball, "Big"), (0, "sphere")):
+            client.send(type="ask", id=99, what="rename", at=at, name=name, revision=1)
+            error = client.wait("error")
+            self.assertEqual((error["id"], error["about"]), (99, "ask"))
+        client.send(type="ask", id=99, what="rename", at=ball, revision=1)
+        self.assertEqual(client.wait("error")["id"], 99)
+
     def test_a_click_leads_to_the_statements_of_the_entity(self):
         client = self.start()
         client.finish()

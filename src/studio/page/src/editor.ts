@@ -9,10 +9,10 @@ import {highlightSelectionMatches, search, searchKeymap} from '@codemirror/searc
 import {ChangeSet, EditorState, type Extension, type ChangeDesc, Transaction}
   from '@codemirror/state';
 import {Decoration, EditorView, ViewPlugin, drawSelection, highlightActiveLine,
-        highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, type DecorationSet,
-        type ViewUpdate} from '@codemirror/view';
+        highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, showDialog,
+        type DecorationSet, type ViewUpdate} from '@codemirror/view';
 import {markdown} from './markdown';
-import type {CompletionItem, Diagnostic, Span} from './protocol';
+import type {CompletionItem, Diagnostic, Renaming, Span} from './protocol';
 
 const tokenClasses = ['comment', 'string', 'number', 'keyword', 'object', 'attribute', 'variable',
                       'parameter', 'function'];
@@ -28,7 +28,9 @@ export interface EditorHost {
   /** Takes each new text, and how it came from the one before. Without that it is another one. */
   changed(text: string, changes: ChangeDesc | null): void;
   moved(place: number): void;
-  ask(what: string, at: number): Promise<unknown>;
+  /** Asks about a place. `name` is the new one of what is there. */
+  ask(what: string, at: number, name?: string): Promise<unknown>;
+  note(text: string): void;
   save(): void;
 }
 
@@ -196,6 +198,27 @@ export class Editor {
     if (found?.span) this.select(found.span, true);
   }
 
+  /** Asks for a new name for the one at the cursor, and changes it by one edit. */
+  async rename(): Promise<void> {
+    const place = this.view.state.selection.main.head;
+    const word = this.view.state.wordAt(place);
+    if (!word || this.isReadOnly) return;
+    const value = this.view.state.sliceDoc(word.from, word.to);
+    const {result} = showDialog(this.view, {
+      label: 'New name', input: {type: 'text', name: 'name', value}, submitLabel: 'Rename',
+      focus: true});
+    const name = (await result)?.querySelector('input')?.value;
+    this.view.focus();
+    if (!name || name === value) return;
+    const before = this.text;
+    const found = (await this.host.ask('rename', place, name)) as Renaming | null;
+    if (!found || this.text !== before) return;
+    this.view.dispatch({changes: found.spans.map(([from, to]) => ({from, to, insert: name})),
+                        annotations: isolateHistory.of('full')});
+    if (found.others.length > 0)
+      this.host.note(`'${value}' also stands in ${found.others.join(', ')}, and is not changed there.`);
+  }
+
   private extensions(): Extension[] {
     return [
       lineNumbers(), highlightActiveLineGutter(), highlightActiveLine(), drawSelection(),
@@ -220,6 +243,7 @@ export class Editor {
       }),
       keymap.of([
         {key: 'Mod-s', run: () => (this.host.save(), true), preventDefault: true},
+        {key: 'F2', run: () => (void this.rename(), true)},
         {key: 'F12', run: () => (void this.goToDefinition(), true)},
         {key: 'Shift-Alt-f', run: () => (void this.format(), true)},
         ...completionKeymap, ...lintKeymap, ...searchKeymap, ...historyKeymap, ...defaultKeymap,

@@ -61,7 +61,8 @@ class Studio {
       this.textChanged(text);
     },
     moved: (place) => this.selection.showAt(place),
-    ask: (what, at) => this.ask(what, at),
+    ask: (what, at, name) => this.ask(what, at, name),
+    note: (text) => this.console.add(text, 'warning'),
     save: () => this.file.save(false),
   });
   private readonly file = new ScriptFile({
@@ -237,8 +238,8 @@ class Studio {
                           script: this.file.name, view: this.viewState.options});
   }
 
-  private ask(what: string, at: number): Promise<unknown> {
-    return this.connection.ask({type: 'ask', what, at, revision: this.revision});
+  private ask(what: string, at: number, name?: string): Promise<unknown> {
+    return this.connection.ask({type: 'ask', what, at, name, revision: this.revision});
   }
 
   private async ballOf(node: TreeNode): Promise<string | null> {

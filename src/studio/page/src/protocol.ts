@@ -63,6 +63,12 @@ export interface CompletionItem {
   rank: number;
 }
 
+/** The places that get a new name, and the other scripts that have the old one. */
+export interface Renaming {
+  spans: Span[];
+  others: string[];
+}
+
 export interface Pick {
   entity: number;
   revision: number;

@@ -66,6 +66,33 @@ withPage('F12 goes to the definition, and the formatter lays out', async ({page}
   await page.waitForFunction((all) => studio.editor.text === all, scene);
 });
 
+withPage('F2 gives a name another one, as one edit, and says where else it stands',
+         async ({page, folder}) => {
+  const rename = async (word, name) => {
+    await page.evaluate((place) => {
+      studio.editor.view.dispatch({selection: {anchor: place}});
+      studio.editor.view.focus();
+    }, (await text(page)).lastIndexOf(word));
+    await page.keyboard.press('F2');
+    await page.getByLabel('New name').fill(name);
+    await page.keyboard.press('Enter');
+  };
+  await rename('red', 'crimson');
+  await page.waitForFunction((wanted) => studio.editor.text === wanted,
+                             scene.replaceAll('red', 'crimson'));
+  await page.keyboard.press('Control+z');
+  assert.equal(await text(page), scene);
+  await rename('red', 'ball');
+  await page.locator('.console', {hasText: "'ball' already means something"}).waitFor();
+  assert.equal(await text(page), scene);
+  writeFileSync(join(folder, 'part.crt'), 'size = 0.7\n');
+  await type(page, 'ball = Sphere', 'import "part.crt"\nball = Sphere');
+  await type(page, 'radius -> 0.7', 'radius -> size');
+  await rename('size', 'width');
+  await page.locator('.console', {hasText: "'size' also stands in"}).waitFor();
+  assert.match(await text(page), /radius -> width/);
+});
+
 withPage('a click selects the entity, its statement and its properties', async ({page}) => {
   await clickPicture(page, 0.68, 0.5);
   await page.waitForFunction(() => studio.sheet.node?.name === 'Box');
@@ -79,8 +106,11 @@ withPage('what a click on a combination leads to are the properties of what it i
   await type(page, '    ball\n', '    (ball + ball) <translate vec3(0, 0.1, 0)>\n');
   await whole(page);
   await clickPicture(page, 0.3, 0.5);
+  await page.waitForFunction(() => {
+    const {from, to} = studio.editor.view.state.selection.main;
+    return studio.editor.text.slice(from, to).startsWith('(ball + ball)');
+  });
   await page.waitForFunction(() => studio.sheet.node?.name === 'Sphere');
-  assert.match(await selectedText(page), /^\(ball \+ ball\)/);
 });
 
 withPage('a changed property is an edit of the text, and undone as one', async ({page}) => {
