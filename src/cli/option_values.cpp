@@ -193,7 +193,7 @@ tev::ViewerAddress parse_display(const std::string& text) {
 
 std::string parse_ip_address(const std::string& option, const std::string& text) {
   const bool has_brackets = text.starts_with('[') && text.ends_with(']');
-  const std::string plain = has_brackets ? text.substr(1, text.size() - 2) : text;
+  std::string plain = has_brackets ? text.substr(1, text.size() - 2) : text;
   in6_addr address{};
   if (inet_pton(AF_INET6, plain.c_str(), &address) == 1) return plain;
   if (!has_brackets && inet_pton(AF_INET, plain.c_str(), &address) == 1) return plain;

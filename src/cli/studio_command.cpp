@@ -77,6 +77,7 @@ ExitCode run_studio(const StudioRequest& request) {
   const std::string program = studio_program().string();
   std::vector<std::string> words = studio_words(request, scene);
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   execvp(program.c_str(), pointers.data());

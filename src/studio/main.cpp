@@ -112,7 +112,7 @@ std::vector<std::string> hosts_of(const WebServerOptions& options) {
   for (const IpAddress& address : machine_addresses()) {
     if (address.is_ipv4() || !listened->is_ipv4()) hosts.push_back(address.in_url());
   }
-  if (hosts.empty()) hosts.push_back("localhost");
+  if (hosts.empty()) hosts.emplace_back("localhost");
   return hosts;
 }
 

@@ -245,8 +245,8 @@ class Visit : public Session, public std::enable_shared_from_this<Visit<Kind>> {
   }
 
   void answer(const Request& request) {
-    if (std::shared_ptr<Response> response = answer_to(request, *shared_))
-      return respond(std::move(response));
+    if (const std::shared_ptr<Response> response = answer_to(request, *shared_))
+      return respond(response);
     lowest().expires_never();
     std::make_shared<Socket<Kind>>(std::move(stream_), shared_)->start(request);
   }
