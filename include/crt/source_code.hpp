@@ -48,7 +48,8 @@ struct SourceOptions {
 /// Returns a script that has the scene, or a program that renders it to the file that its first
 /// argument names. What makes the scene in a program is a function in it: make_scene(). The picture
 /// is the same, byte for byte, unless a warning says otherwise. That is so where nested transforms
-/// make a map of more than doubles, which is then rounded.
+/// make a map of more than doubles, which is then rounded, and in scripts for an angle that no
+/// number of degrees gives, and for an Extrusion that does not begin at z = 0.
 ///
 /// Throws Error: unsupported for what no code can be written of (a Custom shape; an image of more
 /// than 8 bits that is display_encoded(); a mesh that is closed only by triangles without area; in

@@ -57,10 +57,11 @@ void Program::grow(std::size_t bytes) {
 }
 
 void Program::refuse() const {
-  throw Error(ErrorCode::limit,
-              fmt::format("the source code would be longer than {} bytes: load large meshes and "
-                          "images from their files instead",
-                          most_bytes_));
+  throw Error(
+      ErrorCode::limit,
+      fmt::format(
+          "the source code would be longer than {} bytes{}", most_bytes_,
+          syntax_.is_script() ? "" : ": load large meshes and images from their files instead"));
 }
 
 std::string Program::new_name(const std::string& kind) {

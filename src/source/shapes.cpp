@@ -251,7 +251,7 @@ std::string script_value(Program& program, const Extrusion& extrusion) {
   fields.add_text("height", "", Syntax::number(is_at_origin ? low + high : high - low));
   if (extrusion.material)
     fields.add_text("material", "", material_name(program, *extrusion.material));
-  const std::string text = fields.constructed("Extrusion");
+  std::string text = fields.constructed("Extrusion");
   if (is_at_origin) return text;
   program.warn_once(
       "an extrusion that does not begin at z = 0 is moved there: single pixels may differ");

@@ -286,6 +286,9 @@ test('the picture alone fills the page, also where the browser keeps nothing', a
     const {height} = await page.locator('.live canvas').boundingBox();
     assert.ok(height > 400, `${height} pixels high`);
     assert.equal(await page.locator('.dv-tab:visible').count(), 0);
+    assert.equal(await page.locator('#status').isVisible(), false);
+    writeFileSync(join(folder, 'a.crt'), 'Scene {\n  nothing\n}\n');
+    await page.locator('#status', {hasText: 'Line 2: '}).waitFor();  // an error is not hidden
   } finally {
     await context.close();
     await server.end();
