@@ -23,13 +23,17 @@ const gestureEvent = 'input.type.gesture';
 /** A gesture may take so many milliseconds, and a pause in typing ends what is undone as one. */
 const longestGesture = 60_000;
 const typingPause = 500;
+/** So long after Escape Tab leaves the script. */
+const tabMilliseconds = 2000;
 
 export interface EditorHost {
   /** Takes each new text, and how it came from the one before. Without that it is another one. */
   changed(text: string, changes: ChangeDesc | null): void;
   moved(place: number): void;
-  ask(what: string, at: number): Promise<unknown>;
+  ask(what: string, at: number, name?: string): Promise<unknown>;
   save(): void;
+  /** Says why something that was wanted is not done. */
+  refuse(why: string): void;
 }
 
 /** Colours what is visible by the tokens that came last, moved by what was typed since. */
@@ -196,6 +200,26 @@ export class Editor {
     if (found?.span) this.select(found.span, true);
   }
 
+  /** Gives the name at the cursor another one, at all of its places. */
+  async rename(): Promise<void> {
+    if (this.isReadOnly) return;
+    const {text, view: {state}} = this;
+    const place = state.selection.main.head;
+    const word = state.wordAt(place);
+    const old = word ? state.sliceDoc(word.from, word.to) : '';
+    const name = prompt(`New name for '${old}'`, old)?.trim() ?? '';
+    if (name === '' || name === old) return;
+    const answer = (await this.host.ask('rename', place, name)) as
+      {places?: {span?: Span}[]; refused?: string} | null;
+    if (!answer || this.text !== text) return;
+    const spans = answer.places?.map(({span}) => span) ?? [];
+    if (answer.refused !== undefined || spans.includes(undefined))
+      return this.host.refuse(answer.refused ?? `'${old}' stands in other scripts, too`);
+    this.view.dispatch({
+      changes: spans.map((span) => ({from: span![0], to: span![1], insert: name})),
+      annotations: isolateHistory.of('full')});
+  }
+
   private extensions(): Extension[] {
     return [
       lineNumbers(), highlightActiveLineGutter(), highlightActiveLine(), drawSelection(),
@@ -206,7 +230,9 @@ export class Editor {
       }}),
       indentOnInput(), indentUnit.of('    '), bracketMatching(), search({top: true}),
       highlightSelectionMatches(), lintGutter(), this.plugin, theme,
-      EditorView.contentAttributes.of({'aria-label': 'Script'}),
+      EditorView.contentAttributes.of({
+        'aria-label': 'Script', tabindex: '0',
+        'aria-description': 'Tab indents. Escape, then Tab leaves the script.'}),
       EditorState.readOnly.of(this.isReadOnly),
       autocompletion({icons: false, override: [(context) => this.complete(context)]}),
       hoverTooltip((_view, place) => this.hover(place)),
@@ -220,6 +246,9 @@ export class Editor {
       }),
       keymap.of([
         {key: 'Mod-s', run: () => (this.host.save(), true), preventDefault: true},
+        // Escape lets the next Tab leave the script, also where it has something else to do.
+        {key: 'Escape', run: (view) => (view.setTabFocusMode(tabMilliseconds), false)},
+        {key: 'F2', run: () => (void this.rename(), true)},
         {key: 'F12', run: () => (void this.goToDefinition(), true)},
         {key: 'Shift-Alt-f', run: () => (void this.format(), true)},
         ...completionKeymap, ...lintKeymap, ...searchKeymap, ...historyKeymap, ...defaultKeymap,
