@@ -9,8 +9,8 @@ import {highlightSelectionMatches, search, searchKeymap} from '@codemirror/searc
 import {ChangeSet, EditorState, type Extension, type ChangeDesc, Transaction}
   from '@codemirror/state';
 import {Decoration, EditorView, ViewPlugin, drawSelection, highlightActiveLine,
-        highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, type DecorationSet,
-        type ViewUpdate} from '@codemirror/view';
+        highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, tooltips,
+        type DecorationSet, type ViewUpdate} from '@codemirror/view';
 import {markdown} from './markdown';
 import type {CompletionItem, Diagnostic, Span} from './protocol';
 
@@ -97,6 +97,8 @@ const theme = EditorView.theme({
                   border: '1px solid var(--border)', maxWidth: '32rem'},
   '.cm-tooltip .hover': {padding: '0.4rem 0.7rem', maxHeight: '20rem', overflow: 'auto'},
   '.cm-tooltip pre': {margin: '0.3rem 0', fontFamily: 'var(--mono)', whiteSpace: 'pre-wrap'},
+  '.cm-tooltip.cm-tooltip-autocomplete > ul': {maxWidth: 'min(32rem, 80vw)', minWidth: '12rem'},
+  '.cm-tooltip-autocomplete > ul > li': {overflow: 'hidden', textOverflow: 'ellipsis'},
   '.cm-tooltip-autocomplete > ul > li[aria-selected]':
     {backgroundColor: 'var(--accent-fill)', color: 'var(--accent-text)'},
   '.cm-panels': {backgroundColor: 'var(--panel)', color: 'var(--text)'},
@@ -236,6 +238,8 @@ export class Editor {
       EditorState.readOnly.of(this.isReadOnly),
       autocompletion({icons: false, override: [(context) => this.complete(context)]}),
       hoverTooltip((_view, place) => this.hover(place)),
+      // What is beyond the panel is cut off.
+      tooltips({tooltipSpace: (view) => view.dom.getBoundingClientRect()}),
       EditorView.domEventHandlers({
         mousedown: (event, view) => {
           if (!event.ctrlKey && !event.metaKey) return false;

@@ -59,6 +59,7 @@ export class Layout {
   private fit(): void {
     if (this.roomNow() === this.room) return;
     this.room = this.roomNow();
+    this.dock.layout(this.root.clientWidth, this.root.clientHeight);
     this.restore();
   }
 

@@ -79,7 +79,7 @@ export class LiveView {
 
   /** Says why there is no picture, while there is none. */
   say(note: string, ...more: HTMLElement[]): void {
-    this.note.replaceChildren(note, ...more);
+    if (this.frame.hidden) this.note.replaceChildren(note, ...more);
   }
 
   /** Lets the next drag choose a region, or not. */
@@ -111,6 +111,7 @@ export class LiveView {
     context.imageSmoothingEnabled = frame.kind === 'draft';
     context.drawImage(stage, 0, 0, canvas.width, canvas.height);
     this.frame.hidden = false;
+    this.note.replaceChildren();
     this.shown += 1;
     this.lastKind = frame.kind;
   }

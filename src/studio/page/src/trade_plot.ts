@@ -134,9 +134,11 @@ export class TradePlot {
     const wanted = this.wanted.valueAsNumber;
     const isFar = this.measures.map(({difference}) => !(difference <= wanted));
     const first = this.measures[isFar.lastIndexOf(true) + 1];
-    this.answer.textContent =
+    const option = document.createElement('code');
+    option.textContent = first ? `--timebudget ${short(first.seconds)}` : '';
+    this.answer.replaceChildren(
       !(wanted >= this.estimate.rms) ? 'the last picture is not certain enough to tell' :
-      first ? `--timebudget ${short(first.seconds)}` : 'only the last picture is so near';
+      first ? option : 'only the last picture is so near');
   }
 }
 

@@ -209,5 +209,6 @@ withPage('a tablet has large targets, panels for each way it is held, and gestur
   await page.locator('.tree').waitFor();
   await page.waitForFunction((least) => document.querySelector('.live').clientHeight > least, 400);
   assert.ok((await boxOf('editor')).x + 1 < (await boxOf('live')).x);
+  assert.ok((await boxOf('live')).width > 450, JSON.stringify(await boxOf('live')));
   assert.deepEqual(await tooSmall(page, 40), []);
 }, {width: 820, height: 1180}, true);
