@@ -30,10 +30,8 @@ export interface EditorHost {
   /** Takes each new text, and how it came from the one before. Without that it is another one. */
   changed(text: string, changes: ChangeDesc | null): void;
   moved(place: number): void;
-  ask(what: string, at: number, name?: string): Promise<unknown>;
+  ask(what: string, at: number): Promise<unknown>;
   save(): void;
-  /** Says why something that was wanted is not done. */
-  refuse(why: string): void;
 }
 
 /** Colours what is visible by the tokens that came last, moved by what was typed since. */
@@ -202,26 +200,6 @@ export class Editor {
     if (found?.span) this.select(found.span, true);
   }
 
-  /** Gives the name at the cursor another one, at all of its places. */
-  async rename(): Promise<void> {
-    if (this.isReadOnly) return;
-    const {text, view: {state}} = this;
-    const place = state.selection.main.head;
-    const word = state.wordAt(place);
-    const old = word ? state.sliceDoc(word.from, word.to) : '';
-    const name = prompt(`New name for '${old}'`, old)?.trim() ?? '';
-    if (name === '' || name === old) return;
-    const answer = (await this.host.ask('rename', place, name)) as
-      {places?: {span?: Span}[]; refused?: string} | null;
-    if (!answer || this.text !== text) return;
-    const spans = answer.places?.map(({span}) => span) ?? [];
-    if (answer.refused !== undefined || spans.includes(undefined))
-      return this.host.refuse(answer.refused ?? `'${old}' stands in other scripts, too`);
-    this.view.dispatch({
-      changes: spans.map((span) => ({from: span![0], to: span![1], insert: name})),
-      annotations: isolateHistory.of('full')});
-  }
-
   private extensions(): Extension[] {
     return [
       lineNumbers(), highlightActiveLineGutter(), highlightActiveLine(), drawSelection(),
@@ -252,7 +230,6 @@ export class Editor {
         {key: 'Mod-s', run: () => (this.host.save(), true), preventDefault: true},
         // Escape lets the next Tab leave the script, also where it has something else to do.
         {key: 'Escape', run: (view) => (view.setTabFocusMode(tabMilliseconds), false)},
-        {key: 'F2', run: () => (void this.rename(), true)},
         {key: 'F12', run: () => (void this.goToDefinition(), true)},
         {key: 'Shift-Alt-f', run: () => (void this.format(), true)},
         ...completionKeymap, ...lintKeymap, ...searchKeymap, ...historyKeymap, ...defaultKeymap,

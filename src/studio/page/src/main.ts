@@ -62,12 +62,8 @@ class Studio {
       this.textChanged(text);
     },
     moved: (place) => this.selection.showAt(place),
-    ask: (what, at, name) => this.ask(what, at, name),
+    ask: (what, at) => this.ask(what, at),
     save: () => this.file.save(false),
-    refuse: (why) => {
-      this.console.add(why, 'warning');
-      this.say(why, 'warning');
-    },
   });
   private readonly file = new ScriptFile({
     send: (message) => this.connection.send(message),
@@ -279,9 +275,8 @@ class Studio {
                           script: this.file.name, view: this.viewState.options});
   }
 
-  private ask(what: string, at: number, name?: string): Promise<unknown> {
-    return this.connection.ask(
-      {type: 'ask', what, at, revision: this.revision, ...(name === undefined ? {} : {name})});
+  private ask(what: string, at: number): Promise<unknown> {
+    return this.connection.ask({type: 'ask', what, at, revision: this.revision});
   }
 
   private async ballOf(node: TreeNode): Promise<string | null> {

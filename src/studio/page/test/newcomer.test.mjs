@@ -128,26 +128,6 @@ withPage('the console has what the last run said, once', async ({page}) => {
                    ['there 1', 'the scene has no lights: a head light shines from the camera']);
 });
 
-withPage('F2 renames what is at the cursor everywhere, or says why not', async ({page}) => {
-  const rename = async (name, word) => {
-    page.once('dialog', (dialog) => dialog.accept(name));
-    await page.evaluate((place) => {
-      studio.editor.view.dispatch({selection: {anchor: place}});
-      studio.editor.view.focus();
-    }, (await text(page)).indexOf(word) + 1);
-    await page.keyboard.press('F2');
-  };
-  await rename('globe', 'ball');
-  await page.waitForFunction((all) => studio.editor.text === all, scene.replaceAll('ball', 'globe'));
-  await whole(page);
-  await rename('red', 'globe');
-  await page.locator('#status.warning', {hasText: "'red' already means something"}).waitFor();
-  await rename('wide', 'radius');
-  await page.locator('#status.warning', {hasText: 'no name here'}).waitFor();
-  await page.keyboard.press('Control+z');
-  assert.equal(await text(page), scene);
-});
-
 withPage('a picture larger than a screen is shown smaller, and picked at its own pixels',
          async ({page}) => {
   await rendered(page, () => type(page, 'width -> 320 height -> 240 supersampling -> 2',
