@@ -136,7 +136,10 @@ json diagnostics_message(const Analysis& analysis) {
     const bool is_main = diagnostic.place.file == analysis.revision.name;
     const TextSpan span = is_main ? span_of(*analysis.revision.text, diagnostic.place) : TextSpan{};
     std::string message = diagnostic.message;
-    if (!is_main) message = place_text(diagnostic.place, analysis.revision.name) + ": " + message;
+    if (!is_main) {
+      message.insert(0, ": ");
+      message.insert(0, place_text(diagnostic.place, analysis.revision.name));
+    }
     list.push_back({{"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
                     {"message", std::move(message)},
                     {"line", is_main ? diagnostic.place.line : 0},

@@ -42,10 +42,10 @@ export class Layout {
   start(only?: string): void {
     const {clientWidth, clientHeight} = this.root;
     this.dock.layout(clientWidth, clientHeight);
+    nameTabs(this.root, this.dock);
     if (only !== undefined && this.panels[only]) return this.show(only);
     this.room = this.roomNow();
     this.restore();
-    nameTabs(this.root, this.dock);
     this.dock.onDidLayoutChange(() =>
       localStorage.setItem(layoutKeys[this.room], JSON.stringify(this.dock.toJSON())));
     addEventListener('resize', () => this.fit());

@@ -44,6 +44,8 @@ export class LiveView {
   /** Is the size of the whole picture. */
   private size = {width: 1, height: 1};
   private takesRegion = false;
+  /** Is the first revision of which pictures are shown. */
+  private first = 0;
 
   constructor(private readonly host: ViewHost) {
     this.element.className = 'live';
@@ -57,7 +59,7 @@ export class LiveView {
     this.frame.className = 'frame';
     this.frame.append(this.canvas, this.overlay.element);
     this.area.append(this.frame, this.note);
-    this.clear('');
+    this.clear(0);
     this.element.append(this.area);
     this.comparison = new Comparison(this.canvas, this.frame);
     new ResizeObserver(() => this.fit()).observe(this.area);
@@ -71,10 +73,11 @@ export class LiveView {
     canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
-  /** Takes the picture away, and says why there is none. */
-  clear(note: string): void {
+  /** Takes the picture away until there is one of a revision, or of a later one. */
+  clear(revision: number): void {
+    this.first = revision;
     this.frame.hidden = true;
-    this.say(note);
+    this.note.replaceChildren();
   }
 
   /** Says why there is no picture, while there is none. */
@@ -105,7 +108,7 @@ export class LiveView {
     const target = stage.getContext('2d')!;
     if (frame.rows > 0)
       target.putImageData(new ImageData(frame.pixels, frame.width, frame.rows), 0, frame.row);
-    if (!frame.isLast) return;
+    if (!frame.isLast || frame.revision < this.first) return;
     const context = canvas.getContext('2d')!;
     if (frame.kind !== 'progress') context.clearRect(0, 0, canvas.width, canvas.height);
     context.imageSmoothingEnabled = frame.kind === 'draft';

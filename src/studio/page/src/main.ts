@@ -117,6 +117,11 @@ class Studio {
       this.connection.send({type: 'look'});
       this.connection.send({type: 'machine'});
     }, lookMilliseconds);
+    addEventListener('keydown', (event) => {
+      if (event.key !== 's' || !(event.ctrlKey || event.metaKey) || event.defaultPrevented) return;
+      event.preventDefault();
+      this.file.save(false);
+    });
     addEventListener('beforeunload', (event) => {
       if (this.file.isChanged) event.preventDefault();
     });
@@ -298,8 +303,8 @@ class Studio {
   private resetView(): void {
     this.controls.reset();
     this.view.overlay.setRegion(null);
-    this.view.clear('');
-    this.setCamera(null);
+    this.view.clear(this.revision + 1);
+    if (this.camera) this.setCamera(null);
   }
 
   private async askBoxes(): Promise<Boxes> {

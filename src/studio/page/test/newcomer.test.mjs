@@ -112,6 +112,11 @@ withPage('a script that is wrong from the start says so in the place of the pict
   await page.evaluate(() => studio.file.open('b.crt'));
   await page.locator('.live .hint', {hasText: /There is no picture: line 2: .* steps/}).waitFor();
   assert.equal(await page.locator('.live canvas').isVisible(), false);
+  // A picture of the script before that comes late is not shown.
+  await page.evaluate(() => studio.view.show({
+    kind: 'draft', isLast: true, picture: 1, revision: 1, fullWidth: 2, fullHeight: 2, width: 1,
+    height: 1, row: 0, rows: 1, pixels: new Uint8ClampedArray(4)}));
+  assert.equal(await page.locator('.live canvas').isVisible(), false);
   await page.locator('#status.error', {hasText: /^Line 2: .* steps/}).waitFor();
   await page.evaluate(() => studio.file.open('a.crt'));
   await whole(page);

@@ -150,6 +150,12 @@ withPage('saving writes the file', async ({page, folder}) => {
   await page.keyboard.press('Control+s');
   await page.getByText('Saved a.crt').waitFor();
   assert.equal(readFileSync(join(folder, 'a.crt'), 'utf8'), scene.replace('0.7', '0.6'));
+  // So it does from everywhere else.
+  await type(page, '0.6', '0.5');
+  await page.locator('.live canvas').focus();
+  await page.keyboard.press('Control+s');
+  await page.waitForFunction(() => !studio.file.isChanged);
+  assert.equal(readFileSync(join(folder, 'a.crt'), 'utf8'), scene.replace('0.7', '0.5'));
 });
 
 withPage('what another program writes is shown, and what was typed is not lost by it',
