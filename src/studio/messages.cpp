@@ -11,6 +11,8 @@
 #include <string_view>
 #include <utility>
 
+#include "studio/place_text.hpp"
+
 namespace crt::studio {
 
 using nlohmann::json;
@@ -116,13 +118,11 @@ json diagnostics_message(const Analysis& analysis) {
     std::string message = diagnostic.message;
     if (!is_main) {
       message.insert(0, ": ");
-      message.insert(0, std::to_string(diagnostic.place.line));
-      message.insert(0, ":");
-      message.insert(0, diagnostic.place.file);
+      message.insert(0, place_text(diagnostic.place, analysis.revision.name));
     }
     list.push_back({{"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
                     {"message", std::move(message)},
-                    {"line", is_main ? diagnostic.place.line : 1},
+                    {"line", is_main ? diagnostic.place.line : 0},
                     {"span", span_json(analysis.places, span)}});
   }
   return {{"type", "diagnostics"},
@@ -178,7 +178,9 @@ json finished_message(const Revision& revision, const Image& image) {
             {"intersection tests", stats.intersection_tests},
             {"exact fallbacks", stats.escalations},
             {"samples of a pixel (mean)", stats.samples_mean},
+            {"passes", stats.passes},
             {"error of 95 of 100 pixels", stats.half_width_95},
+            {"error of pixels (root mean square)", stats.half_width_rms},
             {"threads", stats.threads},
             {"seconds of preparing", stats.prepare_seconds},
             {"seconds of tracing", stats.trace_seconds},

@@ -1,8 +1,10 @@
 #include "studio/picture_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 namespace crt::studio {
 
@@ -13,6 +15,8 @@ constexpr std::uint32_t last_frame = 0x100;
 constexpr std::size_t bytes_of_pixel = 4;
 /// A frame has about so many bytes of pixels at most.
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
+/// A picture of more pixels than this is shown smaller.
+constexpr double most_pixels = 8 << 20;
 
 struct Rows {
   std::uint32_t begin = 0;
@@ -38,7 +42,40 @@ void put(std::string& bytes, std::uint32_t number) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(number >> shift & 0xffU);
 }
 
+/// Returns the mean of a channel over a square of pixels, as far as that lies in the picture.
+std::uint8_t mean_of(const EncodedPicture& picture, std::uint32_t column, std::uint32_t row,
+                     std::uint32_t step, std::size_t channel) {
+  std::uint32_t sum = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t y = row; y < std::min(row + step, picture.height); ++y) {
+    for (std::uint32_t x = column; x < std::min(column + step, picture.width); ++x, ++count)
+      sum += picture.rgba[(std::size_t{y} * picture.width + x) * bytes_of_pixel + channel];
+  }
+  return static_cast<std::uint8_t>((sum + count / 2) / count);
+}
+
 }  // namespace
+
+int shown_step(int width, int height) {
+  const double pixels = static_cast<double>(width) * height;
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / most_pixels))));
+}
+
+void reduce(EncodedPicture& picture) {
+  const auto step = static_cast<std::uint32_t>(
+      shown_step(static_cast<int>(picture.width), static_cast<int>(picture.height)));
+  if (step == 1) return;
+  std::vector<std::uint8_t> rgba;
+  for (std::uint32_t row = 0; row < picture.height; row += step) {
+    for (std::uint32_t column = 0; column < picture.width; column += step) {
+      for (std::size_t channel = 0; channel < bytes_of_pixel; ++channel)
+        rgba.push_back(mean_of(picture, column, row, step, channel));
+    }
+  }
+  picture.rgba = std::move(rgba);
+  picture.width = (picture.width + step - 1) / step;
+  picture.height = (picture.height + step - 1) / step;
+}
 
 std::vector<std::string> frames_of(const EncodedPicture& picture, const EncodedPicture* before) {
   const Rows rows = changed_rows(picture, before);

@@ -26,6 +26,13 @@ struct EncodedPicture {
   std::vector<std::uint8_t> rgba{};
 };
 
+/// Returns how many pixels of a picture, across and down, become one of those that are shown. It is
+/// 1 up to 2^23 pixels, of which no screen has more by much.
+int shown_step(int width, int height);
+
+/// Makes a large picture one of fewer pixels, each the mean of those that it stands for.
+void reduce(EncodedPicture& picture);
+
 /// Returns the frames of what differs from the picture before, which may be of another size. There
 /// is one at least, and the last is marked.
 std::vector<std::string> frames_of(const EncodedPicture& picture, const EncodedPicture* before);

@@ -9,6 +9,7 @@
 
 #include "studio/channel_picture.hpp"
 #include "studio/draft.hpp"
+#include "studio/place_text.hpp"
 
 namespace crt::studio {
 
@@ -23,6 +24,8 @@ constexpr int coarsest_step = 16;
 constexpr double first_draft_seconds = 0.03;
 /// A picture in progress is sent in this interval.
 constexpr milliseconds look_interval{80};
+/// It waits for so many times as long as the one before took, so that looking takes little time.
+constexpr int looking_pause = 9;
 /// A job is asked in this interval whether it has ended.
 constexpr milliseconds end_interval{8};
 /// So many pictures may be on their way to the page.
@@ -186,7 +189,7 @@ bool Renderer::run_script() {
   ScriptResult result = crt::run_script(*revision_.text, revision_.name, options);
   if (script_is_old()) return false;
   if (!result.scene) {
-    say(Phase::failed, 0, "the script has errors");
+    say(Phase::failed, 0, first_error(result.diagnostics, revision_.name));
     return false;
   }
   take_scene(std::make_shared<const Scene>(std::move(*result.scene)),
@@ -196,8 +199,11 @@ bool Renderer::run_script() {
 }
 
 void Renderer::take_scene(std::shared_ptr<const Scene> scene, std::vector<EntityPlace> places) {
-  // Whoever changes the script's camera wants to see that one.
-  if (script_camera_ && !are_equal(*script_camera_, scene->camera)) {
+  // Whoever changes the script's camera wants to see that one. In another frame it moves by itself.
+  const bool is_other_frame = scene_revision_ == revision_.number && scene_t_ != options_.t;
+  scene_revision_ = revision_.number;
+  scene_t_ = options_.t;
+  if (!is_other_frame && script_camera_ && !are_equal(*script_camera_, scene->camera)) {
     const std::lock_guard lock(mutex_);
     if (changes_ == change_) asked_camera_.reset();
     camera_.reset();
@@ -244,9 +250,11 @@ int Renderer::first_step() const {
 
 /// The first draft is always drawn, so that a camera that never rests is seen moving.
 void Renderer::draw_drafts() {
-  const int first = std::min(first_step(), coarsest_step);
+  const Settings& settings = view_->scene.settings;
+  const int least = shown_step(settings.width, settings.height);
+  const int first = std::max(std::min(first_step(), coarsest_step), least);
   const bool has_last = is_its_own_draft(view_->scene) || is_geometric(options_.channel);
-  const int last = has_last ? 2 : 1;
+  const int last = std::max(has_last ? 2 : 1, least);
   for (int step = first; step >= last && (step == first || !is_old()); step /= 2)
     draw_draft(step, step != first);
 }
@@ -284,6 +292,7 @@ void Renderer::render_whole() {
   options.region = clipped(options_.region, view_->scene.settings);
   RenderJob job(is_geometry ? prepare(geometry_of(view_->scene), *prepared_) : *prepared_, options);
   Clock::time_point last_look = Clock::now();
+  Clock::duration interval = look_interval;
   while (!job.finished()) {
     {
       std::unique_lock lock(mutex_);
@@ -295,7 +304,8 @@ void Renderer::render_whole() {
         break;
       }
     }
-    if (Clock::now() - last_look < look_interval) continue;
+    const Clock::time_point look = Clock::now();
+    if (look - last_look < interval) continue;
     say(Phase::rendering, job.progress());
     if (may_send() && !job.finished()) {
       const Image image = job.snapshot();
@@ -303,6 +313,7 @@ void Renderer::render_whole() {
       if (events_.colors && !is_geometry) events_.colors(revision_, image, false);
     }
     last_look = Clock::now();
+    interval = std::max<Clock::duration>(look_interval, looking_pause * (last_look - look));
   }
   try {
     finish(std::make_shared<const Image>(job.wait()));
@@ -365,6 +376,7 @@ void Renderer::send(PictureKind kind, const Image& image) {
     picture.width = picture.full_width;
     picture.height = picture.full_height;
   }
+  reduce(picture);
   events_.picture(picture);
 }
 

@@ -133,6 +133,8 @@ class Renderer {
   std::optional<Camera> camera_;
   ViewOptions options_;
   std::optional<Camera> script_camera_;    ///< of the last scene
+  std::uint32_t scene_revision_ = 0;       ///< that the last scene is of
+  double scene_t_ = 0;                     ///< the frame that it is of
   std::shared_ptr<const Scene> original_;  ///< as the script has it
   std::optional<Scene> scene_;             ///< with entities under numbers that say their places
   std::vector<EntityPlace> places_;

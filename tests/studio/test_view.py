@@ -155,6 +155,25 @@ class View(OpenedFolder):
         outside = {"x": 500, "y": 8, "width": 4, "height": 4}
         self.assertEqual(self.show(region=outside), self.picture)
 
+    def test_a_large_picture_is_shown_smaller(self):
+        size = "width -> 96 height -> 64 supersampling -> 2"
+        self.client.set_text(SCENE.replace(size, "width -> 4801 height -> 2400"))
+        scene = self.client.wait("scene", lambda found: found["width"] == 4801)
+        self.assertEqual(scene["height"], 2400)
+        sizes = set()
+        while True:
+            message = self.client.receive()
+            if isinstance(message, dict):
+                if message["type"] == "finished":
+                    break
+                continue
+            _, kind, number, _, *size = struct.unpack("<8I", message[:32])
+            sizes.add((kind & 0xFF, *size))
+            if kind & 0x100:
+                self.client.send(type="acknowledge", picture=number)
+        self.assertIn((2, 4801, 2400, 2401, 1200), sizes)
+        self.assertLessEqual(max(size[3] * size[4] for size in sizes), 1 << 23)
+
     def test_time_runs_the_script_again(self):
         moving = SCENE.replace("ball(-1)", "ball(t / 10 - 1)")
         self.client.set_text(moving)

@@ -186,6 +186,46 @@ class Work(OpenedFolder):
         self.assertFalse(changed["isOverridden"])
         self.assertEqual(changed["camera"]["position"], [0, 0, -5])
 
+    def test_the_views_camera_stays_while_that_of_the_script_moves_in_time(self):
+        moving = SCENE.replace("vec3(0, 0, -4)", "vec3(t, 0, -4)")
+        client = self.start(moving)
+        camera = client.wait("scene")["camera"]
+        view = {"channel": "color", "hidden": [], "section": None, "region": None}
+        client.send(type="view", view={**view, "t": 1})
+        moved = client.wait("scene", lambda scene: scene["camera"]["position"][0] == 1)
+        self.assertFalse(moved["isOverridden"])
+        turned = {**camera, "position": [0, 3, -3]}
+        client.send(type="camera", camera=turned)
+        client.wait("scene", lambda scene: scene["isOverridden"])
+        for t in (2, 3):
+            client.send(type="view", view={**view, "t": t})
+            scene = client.wait("scene")
+            self.assertTrue(scene["isOverridden"])
+            self.assertEqual(scene["camera"]["position"], [0, 3, -3])
+            client.finish()
+        # A text that leaves the camera of this frame as it is keeps the view's, too.
+        client.set_text(moving + "\n-- the same\n")
+        kept = client.wait("scene", lambda scene: scene["revision"] == client.revision)
+        self.assertTrue(kept["isOverridden"])
+        client.send(type="camera", camera=None)
+        back = client.wait("scene", lambda scene: not scene["isOverridden"])
+        self.assertEqual(back["camera"]["position"], [3, 0, -4])
+
+    def test_what_goes_wrong_while_a_script_runs_is_said_with_its_place(self):
+        client = self.start(SCENE + "\nwhile (true) { x = 1 }\n")
+        failed = client.wait("state", lambda state: state["phase"] == "failed")
+        line = SCENE.count("\n") + 2
+        self.assertRegex(failed["message"], rf"^line {line}: .*steps")
+
+    def test_an_error_in_an_import_is_said_with_its_file(self):
+        parts = self.folder / "parts"
+        parts.mkdir()
+        (parts / "b.crt").write_text("\nball = Macro () { Spere { } }\n")
+        client = self.start('import "parts/b.crt"\n' + SCENE)
+        found = client.wait("diagnostics", lambda message: message["diagnostics"])
+        self.assertEqual(found["diagnostics"][0]["line"], 0)
+        self.assertRegex(found["diagnostics"][0]["message"], r"^parts/b\.crt:2: .*Spere")
+
     def test_a_new_text_ends_the_render_of_the_old_one(self):
         client = self.start(LONG)
         client.wait("state", lambda state: state["phase"] == "rendering")

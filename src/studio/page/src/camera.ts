@@ -48,3 +48,12 @@ export function dolly(camera: Camera, factor: number): Camera {
 export function zoom(camera: Camera, factor: number): Camera {
   return {...camera, fov: Math.max(0.01, Math.min(3, camera.fov * factor))};
 }
+
+/** Lets the camera be in focus at a point. What lies behind a flat picture changes nothing. */
+export function focusOn(camera: Camera, point: Vector): Camera {
+  const arm = subtract(point, camera.position);
+  const isAllAround = camera.projection === 'spherical' || camera.projection === 'cylindrical';
+  const depth = dot(unit(subtract(camera.pointing, camera.position)), arm);
+  const focalDistance = isAllAround ? length(arm) : depth;
+  return focalDistance > 0 ? {...camera, focalDistance} : camera;
+}

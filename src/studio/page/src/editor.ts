@@ -9,7 +9,7 @@ import {highlightSelectionMatches, search, searchKeymap} from '@codemirror/searc
 import {ChangeSet, EditorState, type Extension, type ChangeDesc, Transaction}
   from '@codemirror/state';
 import {Decoration, EditorView, ViewPlugin, drawSelection, highlightActiveLine,
-        highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, showDialog,
+        highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, showDialog, tooltips,
         type DecorationSet, type ViewUpdate} from '@codemirror/view';
 import {markdown} from './markdown';
 import type {CompletionItem, Diagnostic, Renaming, Span} from './protocol';
@@ -23,6 +23,8 @@ const gestureEvent = 'input.type.gesture';
 /** A gesture may take so many milliseconds, and a pause in typing ends what is undone as one. */
 const longestGesture = 60_000;
 const typingPause = 500;
+/** So long after Escape Tab leaves the script. */
+const tabMilliseconds = 2000;
 
 export interface EditorHost {
   /** Takes each new text, and how it came from the one before. Without that it is another one. */
@@ -95,6 +97,8 @@ const theme = EditorView.theme({
                   border: '1px solid var(--border)', maxWidth: '32rem'},
   '.cm-tooltip .hover': {padding: '0.4rem 0.7rem', maxHeight: '20rem', overflow: 'auto'},
   '.cm-tooltip pre': {margin: '0.3rem 0', fontFamily: 'var(--mono)', whiteSpace: 'pre-wrap'},
+  '.cm-tooltip.cm-tooltip-autocomplete > ul': {maxWidth: 'min(32rem, 80vw)', minWidth: '12rem'},
+  '.cm-tooltip-autocomplete > ul > li': {overflow: 'hidden', textOverflow: 'ellipsis'},
   '.cm-tooltip-autocomplete > ul > li[aria-selected]':
     {backgroundColor: 'var(--accent-fill)', color: 'var(--accent-text)'},
   '.cm-panels': {backgroundColor: 'var(--panel)', color: 'var(--text)'},
@@ -229,10 +233,14 @@ export class Editor {
       }}),
       indentOnInput(), indentUnit.of('    '), bracketMatching(), search({top: true}),
       highlightSelectionMatches(), lintGutter(), this.plugin, theme,
-      EditorView.contentAttributes.of({'aria-label': 'Script'}),
+      EditorView.contentAttributes.of({
+        'aria-label': 'Script', tabindex: '0',
+        'aria-description': 'Tab indents. Escape, then Tab leaves the script.'}),
       EditorState.readOnly.of(this.isReadOnly),
       autocompletion({icons: false, override: [(context) => this.complete(context)]}),
       hoverTooltip((_view, place) => this.hover(place)),
+      // What is beyond the panel is cut off.
+      tooltips({tooltipSpace: (view) => view.dom.getBoundingClientRect()}),
       EditorView.domEventHandlers({
         mousedown: (event, view) => {
           if (!event.ctrlKey && !event.metaKey) return false;
@@ -244,6 +252,8 @@ export class Editor {
       keymap.of([
         {key: 'Mod-s', run: () => (this.host.save(), true), preventDefault: true},
         {key: 'F2', run: () => (void this.rename(), true)},
+        // Escape lets the next Tab leave the script, also where it has something else to do.
+        {key: 'Escape', run: (view) => (view.setTabFocusMode(tabMilliseconds), false)},
         {key: 'F12', run: () => (void this.goToDefinition(), true)},
         {key: 'Shift-Alt-f', run: () => (void this.format(), true)},
         ...completionKeymap, ...lintKeymap, ...searchKeymap, ...historyKeymap, ...defaultKeymap,

@@ -19,6 +19,8 @@ const keyShare = 0.05;
 const wheelRate = 0.0015;
 /** A press that moves less than this is a click. */
 const clickPixels = 4;
+/** The canvas of a larger picture has fewer pixels, as the pictures that the server sends have. */
+const mostPixels = 2 ** 23;
 
 export class LiveView {
   readonly element = document.createElement('div');
@@ -38,17 +40,26 @@ export class LiveView {
   private corner: {x: number; y: number} | null = null;
   private readonly area = document.createElement('div');
   private readonly frame = document.createElement('div');
+  private readonly note = document.createElement('p');
+  /** Is the size of the whole picture. */
+  private size = {width: 1, height: 1};
+  private takesRegion = false;
+  /** Is the first revision of which pictures are shown. */
+  private first = 0;
 
   constructor(private readonly host: ViewHost) {
     this.element.className = 'live';
     this.canvas.tabIndex = 0;
-    this.canvas.setAttribute('role', 'img');
+    // It takes keys, which a picture does not.
+    this.canvas.setAttribute('role', 'application');
     this.canvas.setAttribute('aria-label',
-      'Live view: drag or arrow keys turn, shift moves, wheel or plus and minus go nearer');
+      'Picture: drag or arrow keys turn, shift moves, wheel or plus and minus go nearer');
+    this.note.className = 'hint';
     this.area.className = 'area';
     this.frame.className = 'frame';
     this.frame.append(this.canvas, this.overlay.element);
-    this.area.append(this.frame);
+    this.area.append(this.frame, this.note);
+    this.clear(0);
     this.element.append(this.area);
     this.comparison = new Comparison(this.canvas, this.frame);
     new ResizeObserver(() => this.fit()).observe(this.area);
@@ -62,6 +73,23 @@ export class LiveView {
     canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
+  /** Takes the picture away until there is one of a revision, or of a later one. */
+  clear(revision: number): void {
+    this.first = revision;
+    this.frame.hidden = true;
+    this.note.replaceChildren();
+  }
+
+  /** Says why there is no picture, while there is none. */
+  say(note: string, ...more: HTMLElement[]): void {
+    if (this.frame.hidden) this.note.replaceChildren(note, ...more);
+  }
+
+  /** Lets the next drag choose a region, or not. */
+  takeRegion(takes: boolean): void {
+    this.takesRegion = takes;
+  }
+
   setCamera(camera: Camera): void {
     if (this.asked !== null) return;
     this.camera = camera;
@@ -70,12 +98,7 @@ export class LiveView {
 
   show(frame: Frame): void {
     const {canvas, stage} = this;
-    if (canvas.width !== frame.fullWidth || canvas.height !== frame.fullHeight) {
-      canvas.width = frame.fullWidth;
-      canvas.height = frame.fullHeight;
-      this.overlay.setSize(canvas.width, canvas.height);
-      this.fit();
-    }
+    this.resize(frame.fullWidth, frame.fullHeight);
     if (stage.width !== frame.width || stage.height !== frame.height ||
         this.stageKind !== frame.kind) {
       stage.width = frame.width;
@@ -85,36 +108,49 @@ export class LiveView {
     const target = stage.getContext('2d')!;
     if (frame.rows > 0)
       target.putImageData(new ImageData(frame.pixels, frame.width, frame.rows), 0, frame.row);
-    if (!frame.isLast) return;
+    if (!frame.isLast || frame.revision < this.first) return;
     const context = canvas.getContext('2d')!;
     if (frame.kind !== 'progress') context.clearRect(0, 0, canvas.width, canvas.height);
     context.imageSmoothingEnabled = frame.kind === 'draft';
     context.drawImage(stage, 0, 0, canvas.width, canvas.height);
+    this.frame.hidden = false;
+    this.note.replaceChildren();
     this.shown += 1;
     this.lastKind = frame.kind;
   }
 
+  private resize(width: number, height: number): void {
+    if (this.size.width === width && this.size.height === height) return;
+    this.size = {width, height};
+    const step = Math.max(1, Math.ceil(Math.sqrt(width * height / mostPixels)));
+    this.canvas.width = Math.ceil(width / step);
+    this.canvas.height = Math.ceil(height / step);
+    this.overlay.setSize(width, height);
+    this.fit();
+  }
+
   private fit(): void {
     const {clientWidth, clientHeight} = this.area;
-    const scale = Math.min(clientWidth / this.canvas.width, clientHeight / this.canvas.height);
-    this.frame.style.width = `${Math.max(1, this.canvas.width * scale)}px`;
-    this.frame.style.height = `${Math.max(1, this.canvas.height * scale)}px`;
+    const {width, height} = this.size;
+    const scale = Math.min(clientWidth / width, clientHeight / height);
+    this.frame.style.width = `${Math.max(1, width * scale)}px`;
+    this.frame.style.height = `${Math.max(1, height * scale)}px`;
   }
 
   /** Returns the place of an event in pixels of the picture. */
   private placeOf(event: MouseEvent): {x: number; y: number} {
     const box = this.canvas.getBoundingClientRect();
-    return {x: (event.clientX - box.left) / box.width * this.canvas.width,
-            y: (event.clientY - box.top) / box.height * this.canvas.height};
+    return {x: (event.clientX - box.left) / box.width * this.size.width,
+            y: (event.clientY - box.top) / box.height * this.size.height};
   }
 
   private regionTo(event: PointerEvent): Region {
     const [a, b] = [this.corner!, this.placeOf(event)];
     const within = (value: number, most: number) => Math.round(Math.max(0, Math.min(most, value)));
     const [left, right] = [Math.min(a.x, b.x), Math.max(a.x, b.x)]
-      .map((x) => within(x, this.canvas.width)) as [number, number];
+      .map((x) => within(x, this.size.width)) as [number, number];
     const [top, bottom] = [Math.min(a.y, b.y), Math.max(a.y, b.y)]
-      .map((y) => within(y, this.canvas.height)) as [number, number];
+      .map((y) => within(y, this.size.height)) as [number, number];
     return {x: left, y: top, width: right - left, height: bottom - top};
   }
 
@@ -137,7 +173,7 @@ export class LiveView {
     this.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
     if (this.pointers.size === 1) this.moved = 0;
-    this.corner = event.ctrlKey || event.metaKey ? this.placeOf(event) : null;
+    this.corner = event.ctrlKey || event.metaKey || this.takesRegion ? this.placeOf(event) : null;
   }
 
   private drag(event: PointerEvent): void {

@@ -4,7 +4,7 @@ import 'dockview-core/dist/styles/dockview.css';
 import './style.css';
 
 import {cameraEdits} from './camera_text';
-import {dot, subtract, unit} from './camera';
+import {focusOn} from './camera';
 import {Connection} from './connection';
 import {makeCopyList} from './copy_code';
 import {button} from './dom';
@@ -13,7 +13,7 @@ import {Layout} from './layout';
 import {LiveView} from './live_view';
 import {Console, Statistics} from './panels';
 import {PropertySheet} from './properties';
-import type {Boxes, Camera, Code, Message, Pick, Scene, TreeNode} from './protocol';
+import type {Boxes, Camera, Code, Diagnostic, Message, Pick, Scene, State, TreeNode} from './protocol';
 import {Queue} from './queue';
 import {ScriptFile} from './script_file';
 import {Selection} from './selection';
@@ -53,6 +53,7 @@ class Studio {
     viewer: () => (this.camera ?? this.scene?.camera)?.position ?? [0, 0, 0],
     countShown: () => this.view.shown,
     boundsChanged: () => void this.drawBounds(),
+    regionWanted: (isWanted) => this.view.takeRegion(isWanted),
   });
   private readonly editor = new Editor({
     changed: (text, changes) => {
@@ -72,6 +73,8 @@ class Studio {
     replace: (text) => this.editor.replace(text),
     resume: () => this.resume(),
     note: (text) => this.console.add(text),
+    hasNone: (folder) => this.view.say(`${folder} has no script yet. `,
+      button('New script…', 'Begin a script', () => this.file.begin())),
   });
   private readonly layout = new Layout({
     editor: {title: 'Script', element: this.editor.element},
@@ -83,10 +86,15 @@ class Studio {
     statistics: {title: 'Statistics', element: this.statistics.element},
   });
   private readonly status = document.getElementById('status')!;
+  private readonly progress = document.getElementById('progress')!;
   private readonly connection: Connection;
   private revision = 0;
   private scene: Scene | null = null;
   private camera: Camera | null = null;
+  private stats: Record<string, number> = {};
+  private diagnostics: Diagnostic[] = [];
+  /** Says why the newest text gives no picture, if it gives none. */
+  private failure = '';
   /** For tests: when the text changed last, and how long the first picture of it took. */
   readonly timing = {changed: 0, firstPicture: 0, diagnostics: 0};
 
@@ -110,6 +118,11 @@ class Studio {
       this.connection.send({type: 'look'});
       this.connection.send({type: 'machine'});
     }, lookMilliseconds);
+    addEventListener('keydown', (event) => {
+      if (event.key !== 's' || !(event.ctrlKey || event.metaKey) || event.defaultPrevented) return;
+      event.preventDefault();
+      this.file.save(false);
+    });
     addEventListener('beforeunload', (event) => {
       if (this.file.isChanged) event.preventDefault();
     });
@@ -125,7 +138,11 @@ class Studio {
     };
     const name = document.createElement('b');
     name.textContent = 'CRT studio';
-    bar.append(name, this.file.list);
+    const sign = document.createElement('span');
+    sign.className = 'unsaved';
+    sign.textContent = '•';
+    sign.title = 'What was typed is not saved';
+    bar.append(name, sign, this.file.list);
     addWriting('Save', 'Write the script to its file (Ctrl+S)', () => this.file.save(false));
     addWriting('Format', 'Lay the script out (Shift+Alt+F)', () => void this.editor.format());
     addWriting('Camera to script', 'Write this view into the script', () => this.writeCamera());
@@ -159,7 +176,8 @@ class Studio {
         if (message.revision !== this.revision) break;
         this.timing.diagnostics = performance.now() - this.timing.changed;
         this.editor.setDiagnostics(message.diagnostics);
-        this.showDiagnostics(message.diagnostics);
+        this.diagnostics = message.diagnostics;
+        this.showStatus();
         break;
       case 'scene':
         this.scene = message;
@@ -168,21 +186,20 @@ class Studio {
         this.statistics.setScene(message);
         this.controls.setReadsTime(message.readsTime);
         void this.drawBounds();
-        for (const warning of message.warnings) this.console.add(warning, 'warning');
+        this.console.setWarnings(message.warnings);
         break;
       case 'state':
-        this.queue.set(message);
-        if (message.phase === 'failed' && message.message !== 'the script has errors')
-          this.console.add(message.message, 'error');
+        this.showState(message);
         break;
       case 'machine':
         this.queue.setMachine(message);
         break;
       case 'finished':
+        this.stats = message.stats;
         this.statistics.setStats(message.stats);
         break;
       case 'print':
-        this.console.add(message.line, 'print');
+        this.console.addOfRun(message.line, 'print');
         break;
       case 'changed':
         this.file.changedOutside(message.script, message.text);
@@ -195,6 +212,7 @@ class Studio {
         break;
       case 'error':
         this.console.add(message.message, 'error');
+        this.say(message.message, 'error');
         break;
       default:
         break;
@@ -219,16 +237,41 @@ class Studio {
     if (this.camera) this.setCamera(this.camera);
   }
 
-  private showDiagnostics(diagnostics: {severity: string; message: string; line: number}[]): void {
-    const first = diagnostics.find(({severity}) => severity === 'error') ?? diagnostics[0];
-    this.status.textContent = first ? `Line ${first.line}: ${first.message}` : '';
-    this.status.className = first?.severity ?? '';
+  private showState(state: State): void {
+    this.queue.set(state);
+    this.progress.textContent = this.queue.summary;
+    if (state.phase === 'script') this.console.beginRun();
+    if (state.phase === 'done') this.trade.end(this.stats, state.seconds);
+    if (state.revision !== this.revision) return;
+    const failure = state.phase === 'failed' ? state.message : '';
+    if (failure === this.failure) return;
+    this.failure = failure;
+    this.showStatus();
+    if (failure === '') return;
+    this.console.addOfRun(failure, 'error');
+    this.view.say(`There is no picture: ${failure}`);
+  }
+
+  /** Shows what is wrong: what stands in the text, or else what came out when it was run. */
+  private showStatus(): void {
+    const error = this.diagnostics.find(({severity}) => severity === 'error');
+    const first = error ?? (this.failure === '' ? this.diagnostics[0] : undefined);
+    if (first) this.say(first.line > 0 ? `Line ${first.line}: ${first.message}` : first.message,
+                        first.severity);
+    else this.say(this.failure.replace(/^line/, 'Line'), this.failure === '' ? '' : 'error');
+  }
+
+  private say(text: string, kind: string): void {
+    this.status.textContent = text;
+    this.status.title = text;
+    this.status.className = kind;
   }
 
   private textChanged(text: string): void {
     this.revision += 1;
     this.timing.changed = performance.now();
     this.timing.firstPicture = 0;
+    this.failure = '';
     this.sendText();
     this.file.keep(text);
   }
@@ -261,6 +304,8 @@ class Studio {
   private resetView(): void {
     this.controls.reset();
     this.view.overlay.setRegion(null);
+    this.view.clear(this.revision + 1);
+    if (this.camera) this.setCamera(null);
   }
 
   private async askBoxes(): Promise<Boxes> {
@@ -282,10 +327,7 @@ class Studio {
     this.controls.showPick(pick);
     if (!pick || !this.scene) return;
     if (focuses) {
-      const camera = this.camera ?? this.scene.camera;
-      const axis = unit(subtract(camera.pointing, camera.position));
-      const depth = dot(axis, subtract(pick.position, camera.position));
-      if (depth > 0) this.setCamera({...camera, focalDistance: depth});
+      this.setCamera(focusOn(this.camera ?? this.scene.camera, pick.position));
       return;
     }
     if (pick.revision === this.revision) this.editor.select(pick.origin, false);

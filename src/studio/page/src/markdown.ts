@@ -1,12 +1,14 @@
 // Shows the little Markdown that the reference has. It makes elements and never parses HTML.
 
 function addInline(parent: HTMLElement, text: string): void {
-  for (const piece of text.split(/(`[^`]*`|\*\*[^*]*\*\*|\[[^\]]*\]\([^)]*\))/)) {
+  for (const piece of text.split(/(\*\*[^*]*\*\*|`[^`]*`|\[[^\]]*\]\([^)]*\))/)) {
     const link = /^\[([^\]]*)\]\(/.exec(piece);
     if (piece.startsWith('`') && piece.length > 1) {
       parent.append(Object.assign(document.createElement('code'), {textContent: piece.slice(1, -1)}));
     } else if (piece.startsWith('**') && piece.length > 3) {
-      parent.append(Object.assign(document.createElement('b'), {textContent: piece.slice(2, -2)}));
+      const bold = document.createElement('b');
+      addInline(bold, piece.slice(2, -2));
+      parent.append(bold);
     } else {
       parent.append(link ? link[1]! : piece);
     }

@@ -50,14 +50,13 @@ export class Overlay {
 
   private projector(): Projector | null {
     const {camera, size} = this;
-    if (!camera || !Projector.knows(camera)) return null;
-    return new Projector(camera, size.width, size.height);
+    return camera && new Projector(camera, size.width, size.height);
   }
 
   private draw(): void {
     const projector = this.projector();
     const linesOf = (boxes: Box[]) => projector === null ? '' :
-      boxes.flatMap(edgesOf).map(([a, b]) => projector.edge(a, b)).map((line) => line &&
+      boxes.flatMap(edgesOf).flatMap(([a, b]) => projector.lines(a, b)).map((line) =>
         `M${line.map((place) => place.map((x) => x.toFixed(1)).join(' ')).join('L')}`).join('');
     this.wires.setAttribute('d', linesOf(this.boxes));
     this.ghosts.setAttribute('d', linesOf(this.cutters));

@@ -85,19 +85,22 @@ export class PropertySheet {
       row.className = 'property';
       const label = document.createElement('label');
       label.textContent = description.name;
-      label.title = `${description.type}${description.required ? ', required' : ''}`;
-      row.append(label);
+      label.title = `${description.name}: ${description.type}` +
+        (description.required ? ', required' : '');
+      const value = document.createElement('div');
+      value.className = 'value';
       if (attribute) {
-        row.append(...this.editors(attribute, label));
+        value.append(...this.editors(attribute, label));
       } else {
         row.classList.add('absent');
-        row.append(this.absent(node, description.name, description.default));
+        value.append(this.absent(node, description.name, description.default));
       }
+      row.append(label, value);
       if (description.about !== '') {
         const about = document.createElement('details');
         const summary = document.createElement('summary');
-        summary.textContent = '?';
-        summary.setAttribute('aria-label', `About ${description.name}`);
+        summary.title = `About ${description.name}`;
+        summary.setAttribute('aria-label', summary.title);
         about.append(summary, markdown(description.about));
         row.append(about);
       }
@@ -282,7 +285,7 @@ export class PropertySheet {
     }
     const button = document.createElement('button');
     button.className = 'default';
-    button.textContent = `${defaultText} +`;
+    button.textContent = defaultText;
     button.title = `Write ${name} into the script`;
     button.addEventListener('click', () => {
       const last = node.attributes.at(-1);

@@ -2,12 +2,18 @@
 
 import {button} from './dom';
 
+const bar = () => document.getElementById('question')!;
+
 export function ask(question: string, answers: Record<string, () => void>): void {
-  const bar = document.getElementById('question')!;
   const buttons = Object.entries(answers).map(([text, action]) =>
     button(text, '', () => {
-      bar.replaceChildren();
+      endQuestion();
       action();
     }));
-  bar.replaceChildren(question, ...buttons);
+  bar().replaceChildren(question, ...buttons);
+}
+
+/** Takes away a question that has answered itself. */
+export function endQuestion(): void {
+  bar().replaceChildren();
 }

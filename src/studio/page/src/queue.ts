@@ -16,6 +16,8 @@ export class Queue {
   private readonly machine = document.createElement('span');
   /** Is how long the render has taken. */
   seconds = 0;
+  /** Says in short what is done now. */
+  summary = '';
   private isRunning = false;
 
   constructor(ask: (action: 'cancel' | 'restart') => void, trade: HTMLElement) {
@@ -39,6 +41,10 @@ export class Queue {
       `${state.seconds.toFixed(2)} s` +
       (state.phase === 'rendering' && left > 0.5 ? `, about ${left.toFixed(0)} s left` : '');
     this.button.textContent = this.isRunning ? 'Cancel' : 'Render again';
+    const share = this.isRunning && state.progress > 0
+      ? ` ${Math.floor(100 * state.progress)} %,` : '';
+    this.summary = state.phase === 'failed' ? phases.failed :
+      `${phases[state.phase]}${share} ${state.phase === 'done' ? 'in ' : ''}${this.detail.textContent}`;
   }
 
   setMachine(machine: Machine): void {

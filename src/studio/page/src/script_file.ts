@@ -1,7 +1,11 @@
 // The script's file: what is opened, saved, kept until then, and written by other programs.
 
-import {ask} from './question';
+import {beginning} from './beginning';
+import {ask, endQuestion} from './question';
 import {storage} from './storage';
+
+/** Stands for no script in the list, whose names end in .crt. */
+const another = 'another';
 
 export interface ScriptHost {
   send(message: Record<string, unknown>): void;
@@ -13,6 +17,8 @@ export interface ScriptHost {
   /** Is called when a lost connection has come back. */
   resume(): void;
   note(text: string): void;
+  /** Is called if there is no script to show. */
+  hasNone(folder: string): void;
 }
 
 /** Nobody else's name, which also browsers can make that came by plain HTTP. */
@@ -31,10 +37,14 @@ export class ScriptFile {
   private page = newPageName();
   /** The file was changed by another program, and what is to become of it was not answered. */
   private isInConflict = false;
+  private scripts: string[] = [];
 
   constructor(private readonly host: ScriptHost) {
     this.list.setAttribute('aria-label', 'Script to open');
-    this.list.addEventListener('change', () => this.open(this.list.value));
+    this.list.addEventListener('change', () => {
+      if (this.list.value === another) this.begin();
+      else this.open(this.list.value);
+    });
   }
 
   get isChanged(): boolean {
@@ -50,19 +60,50 @@ export class ScriptFile {
     this.folder = folder;
     this.listScripts(scripts);
     // After a lost connection the server gets what was typed meanwhile.
+    if (this.hasText && !scripts.includes(this.name)) return this.host.resume();
     const name = (this.hasText && this.name) || script || scripts[0];
     if (name !== undefined) this.host.send({type: 'open', script: name, page: this.page});
+    else this.host.hasNone(folder);
   }
 
   open(script: string): void {
-    if (this.isChanged && this.hasText &&
-        !confirm('The script has changes that are not saved. They are kept in this browser.')) {
-      this.list.value = this.name;
-      return;
-    }
+    this.leave();
     this.name = '';
     this.page = newPageName();
     this.host.send({type: 'open', script, page: this.page});
+  }
+
+  /** Begins another script, which is in the folder once it is saved. */
+  begin(): void {
+    const name = this.askName();
+    this.list.value = this.name;
+    if (name === null) return;
+    if (this.scripts.includes(name)) return this.open(name);
+    this.leave();
+    this.page = newPageName();
+    this.take(name, '', storage.getItem(this.draftKey) ?? beginning);
+    this.host.note(`${name} is in the folder once it is saved.`);
+  }
+
+  private askName(): string | null {
+    const name = prompt(`Name of the new script in ${this.folder}`, 'scene.crt')?.trim() ?? '';
+    if (name === '') return null;
+    return name.endsWith('.crt') ? name : `${name}.crt`;
+  }
+
+  private leave(): void {
+    endQuestion();
+    if (this.hasText && this.name !== '' && this.isChanged)
+      this.host.note(`What you typed into ${this.name} is not saved. This browser keeps it.`);
+  }
+
+  /** Shows a script of which the file has `saved`. */
+  private take(name: string, saved: string, text: string): void {
+    this.name = name;
+    this.savedText = saved;
+    this.hasText = true;
+    this.listScripts(this.scripts);
+    this.host.show(text);
   }
 
   /** `typed` is what was typed and not saved, as the server kept it. */
@@ -72,16 +113,17 @@ export class ScriptFile {
       return this.host.resume();
     }
     this.name = script;
-    this.list.value = script;
-    document.title = `${script} – CRT studio`;
     const kept = storage.getItem(this.draftKey);
-    this.savedText = text;
-    this.hasText = true;
+    this.take(script, text, kept ?? text);
     this.isInConflict = false;
-    this.host.show(kept ?? text);
-    if (kept !== null && kept !== text)
-      this.host.note('What you had typed and not saved is here again.');
-    if (typed !== undefined && typed !== kept) this.offer(script, typed);
+    if (kept !== null && kept !== text) {
+      ask(`What you typed into ${script} and did not save is here again.`, {
+        'Go on with it': () => undefined,
+        'Take the file': () => this.host.replace(text),
+      });
+    } else if (typed !== undefined) {
+      this.offer(script, typed);
+    }
   }
 
   private offer(script: string, typed: string): void {
@@ -99,16 +141,20 @@ export class ScriptFile {
   }
 
   save(force: boolean): void {
-    if (this.name === '') return;
+    const name = this.name || this.askName();
+    if (name === null) return;
     if (this.isInConflict && !force &&
-        !confirm(`${this.name} was changed by another program. Write over it?`)) return;
+        !confirm(`${name} was changed by another program. Write over it?`)) return;
     this.isInConflict = false;
-    this.host.send({type: 'save', script: this.name, text: this.host.text(), force});
+    this.host.send({type: 'save', script: name, text: this.host.text(), force});
   }
 
   saved(script: string, scripts: string[]): void {
-    this.savedText = this.host.text();
+    endQuestion();
     storage.removeItem(this.draftKey);
+    this.name = script;
+    this.savedText = this.host.text();
+    this.hasText = true;
     document.body.classList.remove('changed');
     this.listScripts(scripts);
     this.host.note(`Saved ${script}`);
@@ -118,25 +164,29 @@ export class ScriptFile {
   changedOutside(script: string, text: string): void {
     if (script !== this.name) return;
     if (text === this.host.text() || !this.isChanged) {
-      this.take(text);
+      this.takeFile(text);
       return this.host.note(`${script} was changed by another program, and is shown so.`);
     }
     this.savedText = text;
     this.isInConflict = true;
     ask(`${script} was changed by another program, and here, too.`, {
-      'Take the file': () => this.take(text),
+      'Take the file': () => this.takeFile(text),
       'Keep what is here': () => { this.isInConflict = false; },
     });
   }
 
-  private take(text: string): void {
+  private takeFile(text: string): void {
     this.isInConflict = false;
     this.savedText = text;
     this.host.replace(text);
   }
 
   private listScripts(scripts: string[]): void {
-    this.list.replaceChildren(...scripts.map((script) => new Option(script, script)));
+    this.scripts = scripts;
+    const all = scripts.includes(this.name) || this.name === '' ? scripts : [this.name, ...scripts];
+    this.list.replaceChildren(...all.map((script) => new Option(script, script)));
+    if (this.folder !== '') this.list.append(new Option('New script…', another));
     this.list.value = this.name;
+    document.title = this.name === '' ? 'CRT studio' : `${this.name} – CRT studio`;
   }
 }

@@ -53,7 +53,9 @@ export class Selection {
     let object = index;
     while (object >= 0 && !['object', 'settings'].includes(this.nodes[object]!.kind))
       object = this.nodes[object]!.parent;
-    if (object < 0 && index >= 0) object = this.firstObjectIn(index, new Set());
+    const node = this.nodes[index];
+    if (object < 0 && node && node.kind !== 'scene')
+      object = this.firstObjectIn(index, new Set());
     this.sheet.show(this.nodes[object] ?? null);
   }
 

@@ -16,7 +16,7 @@ export class TimeControls {
   private readonly last = input('number', 'Last frame', String(usualLast), (field) => {
     if (field.valueAsNumber >= 1) this.slider.max = String(Math.round(field.valueAsNumber));
   });
-  private readonly play = button('▶', 'Play the frames one after the other', () =>
+  private readonly play = button('', 'Play the frames one after the other', () =>
     this.isPlaying ? this.stop() : this.start());
   private timer: ReturnType<typeof setInterval> | undefined;
   private shownAtLast = -1;
@@ -29,6 +29,7 @@ export class TimeControls {
     this.slider.max = String(usualLast);
     this.slider.step = '1';
     this.element.append(this.play, 't', this.slider, this.field, 'of', this.last);
+    this.stop();
     this.setUsed(false);
   }
 
@@ -49,7 +50,8 @@ export class TimeControls {
   }
 
   private start(): void {
-    this.play.textContent = '⏸';
+    this.play.className = 'pause';
+    this.play.setAttribute('aria-label', 'Pause');
     this.shownAtLast = -1;
     this.timer = setInterval(() => this.step(), 1000 / framesASecond);
   }
@@ -57,7 +59,8 @@ export class TimeControls {
   private stop(): void {
     clearInterval(this.timer);
     this.timer = undefined;
-    this.play.textContent = '▶';
+    this.play.className = 'play';
+    this.play.setAttribute('aria-label', 'Play');
   }
 
   private step(): void {

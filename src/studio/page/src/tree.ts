@@ -57,6 +57,9 @@ export class Tree {
     const row = this.rows[index];
     row?.setAttribute('aria-selected', 'true');
     row?.scrollIntoView({block: 'nearest'});
+    // The tree has the keyboard, and says so which of its rows is meant.
+    if (row) this.element.setAttribute('aria-activedescendant', row.id);
+    else this.element.removeAttribute('aria-activedescendant');
   }
 
   private path(index: number): string {
@@ -79,11 +82,13 @@ export class Tree {
       hidden.push(isHidden || isClosed);
       const row = document.createElement('div');
       row.className = `row kind-${node.kind}`;
+      row.id = `node-${index}`;
       row.setAttribute('role', 'treeitem');
       row.setAttribute('aria-level', String(depth + 1));
       row.style.paddingLeft = `${0.5 + 0.9 * depth}rem`;
       const arrow = document.createElement('span');
       arrow.className = 'arrow';
+      arrow.setAttribute('aria-hidden', 'true');
       if (parents.has(index)) {
         arrow.textContent = isClosed ? '▸' : '▾';
         row.setAttribute('aria-expanded', String(!isClosed));
@@ -96,7 +101,10 @@ export class Tree {
       sign.className = 'sign';
       sign.setAttribute('aria-hidden', 'true');
       sign.textContent = signs[node.kind] ?? '';
-      row.append(arrow, sign, titleOf(node));
+      const title = document.createElement('span');
+      title.className = 'title';
+      title.textContent = titleOf(node);
+      row.append(arrow, sign, title);
       if (this.canBeHidden(index)) row.append(this.eyeOf(node));
       row.hidden = isHidden;
       row.addEventListener('click', () => this.choose(index));
@@ -140,16 +148,23 @@ export class Tree {
   private key(event: KeyboardEvent): void {
     const step = event.key === 'ArrowDown' ? 1 : event.key === 'ArrowUp' ? -1 : 0;
     const node = this.nodes[this.selected];
+    const row = this.rows[this.selected];
     if (step !== 0) {
       let next = this.selected + step;
       while (this.rows[next]?.hidden) next += step;
       if (this.rows[next]) this.choose(next);
+    } else if (event.key === 'Home' || event.key === 'End') {
+      const seen = this.rows.flatMap((row, index) => row.hidden ? [] : [index]);
+      const end = event.key === 'Home' ? seen[0] : seen.at(-1);
+      if (end !== undefined) this.choose(end);
     } else if (node && event.key === 'h' && this.canBeHidden(this.selected)) {
       this.eyes.toggle(node.span);
-    } else if (node && (event.key === 'ArrowLeft' || event.key === 'ArrowRight')) {
-      const isClosed = this.closed.has(this.path(this.selected));
-      if (isClosed === (event.key === 'ArrowRight')) this.toggle(this.selected);
-      else if (event.key === 'ArrowLeft' && node.parent >= 0) this.choose(node.parent);
+    } else if (node && event.key === 'ArrowLeft') {
+      if (row?.getAttribute('aria-expanded') === 'true') this.toggle(this.selected);
+      else if (node.parent >= 0) this.choose(node.parent);
+    } else if (node && event.key === 'ArrowRight') {
+      if (row?.getAttribute('aria-expanded') === 'false') this.toggle(this.selected);
+      else if (row?.hasAttribute('aria-expanded')) this.choose(this.selected + 1);
     } else {
       return;
     }

@@ -21,6 +21,8 @@ export interface ControlsHost {
   /** Counts the pictures that were shown. */
   countShown(): number;
   boundsChanged(): void;
+  /** Says whether the next drag in the picture chooses a region. */
+  regionWanted(isWanted: boolean): void;
 }
 
 export class ViewControls {
@@ -28,13 +30,15 @@ export class ViewControls {
   private readonly section: SectionControls;
   private readonly time: TimeControls;
   private readonly channel: HTMLSelectElement;
+  private readonly region: HTMLButtonElement;
   private readonly whole: HTMLButtonElement;
   private readonly all: HTMLButtonElement;
   private readonly bounds: HTMLInputElement;
   private readonly cutters: HTMLInputElement;
   private readonly place = document.createElement('output');
 
-  constructor(private readonly state: ViewState, comparison: Comparison, host: ControlsHost) {
+  constructor(private readonly state: ViewState, comparison: Comparison,
+              private readonly host: ControlsHost) {
     this.element.className = 'controls';
     this.element.setAttribute('role', 'toolbar');
     this.element.setAttribute('aria-label', 'What the view shows');
@@ -43,6 +47,8 @@ export class ViewControls {
                                        () => host.viewer());
     this.time = new TimeControls((t) => state.set({t}), () => host.countShown());
     this.bounds = input('checkbox', 'Bounds', '', () => host.boundsChanged());
+    this.region = button('Region', 'Drag a part of the picture, to refine it alone (Ctrl and drag)',
+                         () => this.wantRegion(!this.wantsRegion));
     this.whole = button('Whole picture', 'Refine all of the picture again (Escape)', () =>
       state.set({region: null}));
     this.all = button('Show all', 'Show what was hidden in the scene tree', () =>
@@ -55,10 +61,18 @@ export class ViewControls {
     cutters.title = 'Draw the boxes around what is cut away';
     cutters.prepend(this.cutters);
     this.element.append(this.channel, bounds, cutters, this.section.element, comparison.controls,
-                        this.whole,
-                        this.all, this.time.element, this.place);
+                        this.region, this.whole, this.all, this.time.element, this.place);
     this.place.title = 'Where the picture was clicked last';
     this.update();
+  }
+
+  private get wantsRegion(): boolean {
+    return this.region.getAttribute('aria-pressed') === 'true';
+  }
+
+  private wantRegion(isWanted: boolean): void {
+    this.region.setAttribute('aria-pressed', String(isWanted));
+    this.host.regionWanted(isWanted);
   }
 
   get showsCutters(): boolean {
@@ -82,6 +96,8 @@ export class ViewControls {
   /** Shows the controls that undo what is in effect. */
   update(): void {
     this.whole.hidden = this.state.options.region === null;
+    this.region.hidden = !this.whole.hidden;
+    if (this.region.hidden || !this.region.hasAttribute('aria-pressed')) this.wantRegion(false);
     this.all.hidden = this.state.options.hidden.length === 0;
   }
 

@@ -17,6 +17,7 @@ const copied = async (page, what) => {
 
 withPage('the selected entity and the scene are copied in each language', async ({page}) => {
   await clickPicture(page, 0.75, 0.5);
+  await page.waitForFunction(() => studio.sheet.node?.name === 'Box');
   assert.match(await copied(page, 'entity cpp'), /Box\{\.corner_a = \{0\.5, -0\.5, -0\.5\}/);
   await page.evaluate(() => studio.console.element.replaceChildren());
   const scene = await copied(page, 'scene python');

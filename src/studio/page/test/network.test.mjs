@@ -3,18 +3,13 @@ import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {after, before, test} from 'node:test';
-
-import {folderWith, startBrowser, startServer, text, type, whole} from './studio.mjs';
+import {test} from 'node:test';
+import {browser} from './page.mjs';
+import {folderWith, startServer, text, type, whole} from './studio.mjs';
 
 const scene = `Settings { width -> 64 height -> 48 }
 Scene { Sphere { center -> vec3(0, 0, 2) radius -> 0.7 } }
 `;
-let browser;
-before(async () => {
-  browser = await startBrowser();
-});
-after(() => browser.close());
 
 test('by HTTPS the page renders what is typed, and saves it', async () => {
   const {folder, remove} = folderWith({'a.crt': scene});
@@ -27,7 +22,7 @@ test('by HTTPS the page renders what is typed, and saves it', async () => {
     'listen=0.0.0.0', `tls-cert=${certificate}`, `tls-key=${key}`]);
   assert.match(server.url, /^https:/);
   // Nobody vouches for a certificate that a test has made.
-  const context = await browser.newContext({ignoreHTTPSErrors: true});
+  const context = await browser().newContext({ignoreHTTPSErrors: true});
   const page = await context.newPage();
   await page.goto(server.url);
   await whole(page);

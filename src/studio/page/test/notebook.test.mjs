@@ -1,11 +1,13 @@
-// A notebook shows a scene of Python in a frame. Without Debian's jupyter-notebook this is skipped.
+// A notebook shows a scene of Python in a frame. Without Debian's jupyter-notebook, or a
+// library that it can load (CRT_LIBRARY), this is skipped.
 import assert from 'node:assert/strict';
 import {spawn, spawnSync} from 'node:child_process';
 import {writeFileSync} from 'node:fs';
 import {createServer} from 'node:net';
 import {delimiter, dirname, join} from 'node:path';
 import {test} from 'node:test';
-import {folderWith, command, project, startBrowser} from './studio.mjs';
+import {browser} from './page.mjs';
+import {folderWith, command, project} from './studio.mjs';
 
 const cells = [
   `import crt
@@ -44,7 +46,6 @@ async function startNotebooks(folder) {
       HOME: folder,
       PATH: `${dirname(command)}${delimiter}${process.env.PATH}`,
       PYTHONPATH: join(project, 'python'),
-      CRT_LIBRARY: process.env.CRT_LIBRARY ?? join(project, 'build/release/lib/libcrt.so'),
       PYTHONDONTWRITEBYTECODE: '1',
     },
   });
@@ -61,14 +62,14 @@ async function startNotebooks(folder) {
   return {address, end: () => (child.kill('SIGTERM'), ended)};
 }
 
-const hasNotebooks = spawnSync('jupyter-notebook', ['--version']).status === 0;
+const hasNotebooks = process.env.CRT_LIBRARY !== undefined &&
+  spawnSync('jupyter-notebook', ['--version']).status === 0;
 
 test('a notebook shows a scene, and what becomes of it', {skip: !hasNotebooks}, async () => {
   const {folder, remove} = folderWith({'a.ipynb': notebookOf(cells)});
   const notebooks = await startNotebooks(folder);
-  const browser = await startBrowser();
+  const page = await browser().newPage();
   try {
-    const page = await browser.newPage();
     const {origin, search} = notebooks.address;
     await page.goto(`${origin}/notebooks/a.ipynb${search}`);
     await page.waitForFunction(() => globalThis.Jupyter?.notebook?.kernel?.is_connected());
@@ -91,7 +92,7 @@ test('a notebook shows a scene, and what becomes of it', {skip: !hasNotebooks}, 
     await run(1);
     await until(isWhite);
   } finally {
-    await browser.close();
+    await page.close();
     await notebooks.end();
     remove();
   }

@@ -22,12 +22,12 @@ after(() => running.close());
 /** Returns the browser of all tests of a file. */
 export const browser = () => running;
 
-/** Runs a test with a server on a folder with the scene and a page that shows it. */
-export function withPage(name, body) {
+/** Runs a test with a server on a folder with the scene and a page that shows it, on a screen. */
+export function withPage(name, body, ...how) {
   test(name, async () => {
     const {folder, remove} = folderWith({'a.crt': scene});
     const server = await startServer(folder, 'a.crt');
-    const page = await openPage(running, server.url);
+    const page = await openPage(running, server.url, ...how);
     try {
       await whole(page);
       await body({page, folder, server});
@@ -41,17 +41,12 @@ export function withPage(name, body) {
 }
 
 export const shown = (page) => page.evaluate(() => studio.view.shown);
-export const shownBytes = (page) => page.evaluate(() => {
-  const {canvas} = studio.view;
-  return [...canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data];
-});
+/** Returns what is the same for the same picture alone. */
+export const shownBytes = (page) => page.evaluate(() => digest());
 
 /** Waits until the picture is as it was. */
-export const showsBytes = (page, bytes) => page.waitForFunction((wanted) => {
-  const {canvas} = studio.view;
-  const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  return data.length === wanted.length && data.every((byte, i) => byte === wanted[i]);
-}, bytes);
+export const showsBytes = (page, bytes) =>
+  page.waitForFunction(async (wanted) => await digest() === wanted, bytes);
 
 /** Clicks the picture at a share of its sides. */
 export async function clickPicture(page, x, y, options = {}) {

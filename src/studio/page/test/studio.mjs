@@ -59,11 +59,20 @@ export async function startServer(folder, script = '', port = 0, more = []) {
   };
 }
 
-/** Opens the page and waits for its first whole picture. */
-export async function openPage(browser, url, size = {width: 1280, height: 720}) {
-  const context = await browser.newContext({viewport: size});
+/** Opens the page, as a tablet if it is touched. */
+export async function openPage(browser, url, size = {width: 1280, height: 720}, isTouched = false) {
+  const context = await browser.newContext(
+    {viewport: size, hasTouch: isTouched, isMobile: isTouched});
   const page = await context.newPage();
   page.problems = [];
+  await page.addInitScript(() => {
+    window.digest = async () => {
+      const {canvas} = studio.view;
+      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      const hash = new Uint8Array(await crypto.subtle.digest('SHA-256', data));
+      return `${canvas.width} ${canvas.height} ${hash.join(' ')}`;
+    };
+  });
   page.on('console', (message) => {
     // The tests read the picture, which the page never does.
     const isOfTest = message.text().startsWith('Canvas2D: Multiple readback');

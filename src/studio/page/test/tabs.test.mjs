@@ -2,26 +2,21 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {after, before, test} from 'node:test';
-
-import {folderWith, keptTexts, openPage, startBrowser, startServer, text, type, whole}
+import {test} from 'node:test';
+import {browser} from './page.mjs';
+import {folderWith, keptTexts, openPage, startServer, text, type, whole}
   from './studio.mjs';
 
 const scene = `Settings { width -> 64 height -> 48 }
 Scene { Sphere { center -> vec3(0, 0, 2) radius -> 0.7 } }
 `;
 const withRadius = (radius) => scene.replace('0.7', radius);
-let browser;
-before(async () => {
-  browser = await startBrowser();
-});
-after(() => browser.close());
 
 /** Opens the script in two tabs of one browser and types something else into each. */
 async function typeInTwoTabs(action) {
   const {folder, remove} = folderWith({'a.crt': scene});
   const server = await startServer(folder, 'a.crt');
-  const first = await openPage(browser, server.url);
+  const first = await openPage(browser(), server.url);
   await whole(first);
   const second = await first.context().newPage();
   await second.goto(server.url);
@@ -41,7 +36,7 @@ test('both texts are there after the browser and the server have crashed', async
     const again = await startServer(folder, 'a.crt');
     const found = [];
     for (let i = 0; i < 2; ++i) {
-      const page = await openPage(browser, again.url);
+      const page = await openPage(browser(), again.url);
       await page.getByRole('button', {name: 'Go on with it'}).click();
       found.push(await text(page));
     }

@@ -3,7 +3,8 @@ import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {test} from 'node:test';
-import {browser, clickPicture, pixelAt, scene, shownBytes, showsBytes, withPage} from './page.mjs';
+import {browser, cameraOf, clickPicture, dragPicture, pixelAt, scene, shownBytes, showsBytes,
+        withPage} from './page.mjs';
 import {folderWith, keptTexts, openPage, rendered, startServer, text, type, whole}
   from './studio.mjs';
 
@@ -85,23 +86,62 @@ withPage('a section is moved by its slider and flipped', async ({page}) => {
 });
 
 withPage('boxes are drawn where the entities are', async ({page}) => {
-  const roll = 'camera -> Camera { roll -> 20';
-  for (const camera of [null, roll]) {
-    if (camera) await rendered(page, () => type(page, 'camera -> Camera {', camera));
-    await page.getByLabel('Bounds').setChecked(true);
+  const plain = 'camera -> Camera {';
+  const roll = `${plain} roll -> 20`;
+  const cameras = {
+    'a pinhole camera': [plain, ''], 'a rolled one': [roll, ''],
+    'an orthographic one': [`${roll} focaldistance -> 4`, 'projection -> "orthographic"'],
+    'a spherical one': [roll, 'projection -> "spherical"'],
+    'a panorama': [`${roll} fov -> 180`, 'projection -> "spherical"'],
+    'a cylindrical one': [`${roll} fov -> 120`, 'projection -> "cylindrical"']};
+  await page.getByLabel('Bounds').setChecked(true);
+  for (const [name, [camera, projection]] of Object.entries(cameras)) {
+    if (name !== 'a pinhole camera') await rendered(page, () => page.evaluate((text) =>
+      studio.editor.replace(text), scene.replace(plain, `${projection} ${camera}`)));
     await page.waitForFunction(() => studio.view.overlay.wires.getAttribute('d').length > 100);
-    // A pixel and the point that it shows are the same place.
-    for (const [x, y] of camera ? [[0.33, 0.6], [0.66, 0.4]] : [ball, box, [0.62, 0.4]]) {
-      const {width, height} = await page.evaluate(() => studio.scene);
-      const found = await page.evaluate(async ([u, v]) => {
-        const pick = await studio.connection.ask({type: 'pick', x: u, y: v});
-        return pick && studio.view.overlay.placeOf(pick.position);
-      }, [x * width, y * height]);
-      assert.ok(found && Math.hypot(found[0] - x * width, found[1] - y * height) < 0.01, String(found));
+    // A pixel and the point that it shows are the same place, whatever the library projects.
+    const {width, height} = await page.evaluate(() => studio.scene);
+    let hits = 0;
+    for (let x = width / 20; x < width; x += width / 20) {
+      for (let y = height / 10; y < height; y += height / 10) {
+        const found = await page.evaluate(async ([u, v]) => {
+          const pick = await studio.connection.ask({type: 'pick', x: u, y: v});
+          return pick && studio.view.overlay.placeOf(pick.position);
+        }, [x, y]);
+        if (!found) continue;
+        ++hits;
+        assert.ok(Math.hypot(found[0] - x, found[1] - y) < 0.01, `${name}: ${found}, ${x} ${y}`);
+      }
     }
-    await page.getByLabel('Bounds').setChecked(false);
-    await page.waitForFunction(() => studio.view.overlay.wires.getAttribute('d') === '');
+    assert.ok(hits > 1, name);
   }
+});
+
+withPage('edges are bent where the picture is, and end at its seam', async ({page}) => {
+  await page.getByLabel('Bounds').setChecked(true);
+  await rendered(page, () => page.evaluate((text) => studio.editor.replace(text),
+    scene.replace('width -> 320 height -> 240', 'width -> 480 height -> 240')
+      .replace('camera -> Camera {', 'projection -> "spherical" camera -> Camera { fov -> 180')
+      .replace('Scene {', 'Scene {\n' +
+        'Box { cornerA -> vec3(-1, 0.5, -8) cornerB -> vec3(1, 1.5, -6) }')));
+  await page.waitForFunction(() => studio.view.overlay.boxes.length === 3);
+  const lines = (await page.evaluate(() => studio.view.overlay.wires.getAttribute('d')))
+    .slice(1).split('M').map((line) => line.split('L').map((place) => place.split(' ').map(Number)));
+  // The picture goes all around, and the new box is behind the camera: four edges cross the seam.
+  assert.equal(lines.length, 3 * 12 + 4);
+  for (const line of lines) {
+    for (let i = 1; i < line.length; ++i) {
+      const [[x0, y0], [x1, y1]] = [line[i - 1], line[i]];
+      assert.ok(Math.hypot(x1 - x0, y1 - y0) < 10, `${line}`);
+    }
+  }
+  // An edge that is straight in space is not so in the picture.
+  const bends = lines.map((line) => {
+    const [[x0, y0], [x1, y1]] = [line[0], line.at(-1)];
+    const [x, y] = line[line.length >> 1];
+    return Math.abs((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) / Math.hypot(x1 - x0, y1 - y0);
+  });
+  assert.ok(Math.max(...bends.filter(Number.isFinite)) > 1, String(bends));
 });
 
 withPage('the boxes of what is cut away are drawn, and not the plane of a section',
@@ -150,9 +190,9 @@ withPage('time has a slider where the script reads t, and plays', async ({page})
   const start = await shownBytes(page);
   await rendered(page, () => slider.fill('50'));
   assert.notDeepEqual(await shownBytes(page), start);
-  await page.getByRole('button', {name: '▶'}).click();
+  await page.getByRole('button', {name: 'Play'}).click();
   await page.waitForFunction(() => studio.viewState.options.t >= 53);
-  await page.getByRole('button', {name: '⏸'}).click();
+  await page.getByRole('button', {name: 'Pause'}).click();
   await slider.fill('0');
   // A frame that was under way may still be shown before.
   await showsBytes(page, start);
@@ -229,14 +269,50 @@ withPage('the queue says how near pictures were to the last one, and how busy th
   await rendered(page, () =>
     type(page, 'supersampling -> 2', 'timebudget -> 1.5 maxsamples -> 65536'));
   await whole(page);
-  await page.locator('.trade', {hasText: /steps of 8 bits: [\d.]+ after/}).waitFor();
-  const differences = await page.evaluate(() =>
-    studio.trade.measures.map(({difference}) => difference));
+  await page.locator('.trade', {hasText: /steps of 8 bits[\d.]+ after/}).waitFor();
+  const {measures, estimate} = await page.evaluate(() => studio.trade);
+  const differences = measures.map(({difference}) => difference);
   assert.ok(differences.length > 1 && differences.every((value) => value > 0));
   assert.ok(differences.at(-1) < differences[0], String(differences));
+  // The times are those of tracing, which the budget bounds.
+  assert.ok(measures.every(({seconds}) => seconds > 0 && seconds < 1.8), JSON.stringify(measures));
+  // What the render knows of its error is what is said of it.
+  assert.ok(estimate.of95 > 0 && estimate.of95 < 255, JSON.stringify(estimate));
+  await page.locator('.trade', {hasText: /own error, as it knows: 95 of 100 pixels within/}).waitFor();
+
+  // The answer is that of `crt trade`: from when on all was so near, or that nobody can tell.
+  const steps = page.getByLabel('Steps of 8 bits');
+  const answer = () => page.locator('.trade output').textContent();
+  await steps.fill('255');
+  assert.equal(await answer(), `--timebudget ${Number(measures[0].seconds.toPrecision(2))}`);
+  const wanted = Math.max(estimate.rms, differences[1]) * 1.001;
+  const first = measures.find((_, i) =>
+    measures.slice(i).every(({difference}) => difference <= wanted));
+  await steps.fill(String(wanted));
+  assert.equal(await answer(), `--timebudget ${Number(first.seconds.toPrecision(2))}`);
+  await steps.fill(String(estimate.rms / 2));
+  assert.equal(await answer(), 'the last picture is not certain enough to tell');
+
+  await page.evaluate(() => studio.editor.view.focus());
   await rendered(page, () => page.keyboard.press('Control+z'));
   await page.locator('.trade').waitFor({state: 'hidden'});
   await page.locator('.queue .machine', {hasText: 'GiB'}).waitFor();
+});
+
+withPage('a turned camera stays while that of the script moves in time, until Home',
+         async ({page}) => {
+  await rendered(page, () => type(page, 'vec3(0, 0, -4)', 'vec3(t / 50, 0, -4)'));
+  const slider = page.getByLabel('Frame t', {exact: true});
+  await rendered(page, () => slider.fill('10'));
+  assert.equal((await cameraOf(page)).position[0], 0.2);
+  await rendered(page, () => dragPicture(page, 60, 0));
+  const turned = await cameraOf(page);
+  await rendered(page, () => slider.fill('20'));
+  assert.deepEqual((await cameraOf(page)).position, turned.position);
+  assert.equal(await page.evaluate(() => studio.scene.isOverridden), true);
+  await page.locator('.live canvas').focus();
+  await rendered(page, () => page.keyboard.press('Home'));
+  assert.equal((await cameraOf(page)).position[0], 0.4);
 });
 
 withPage('a click says where it was', async ({page}) => {
