@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "studio/analysis_message.hpp"
 #include "studio/analyst.hpp"
 #include "studio/messages.hpp"
 #include "studio/typed_keeper.hpp"
@@ -50,7 +51,7 @@ class StudioClient : public ViewClient {
                const StudioOptions& options)
       : ViewClient(std::move(connection), options.threads),
         folder_(std::move(folder)),
-        analyst_([this](const Analysis& analysis) { send(tokens_message(analysis)); },
+        analyst_([this](const Analysis& analysis) { send_text(analysis_message(analysis)); },
                  [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
         keeper_(folder_) {
     on("open", [this](const json& message) { open(message); });

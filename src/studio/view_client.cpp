@@ -63,7 +63,7 @@ RenderEvents ViewClient::events() {
 }
 
 void ViewClient::send(const json& message) const {
-  connection_->send_text(text_of(message));
+  send_text(text_of(message));
 }
 
 /// The renderer's thread alone calls it.
