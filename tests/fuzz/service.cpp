@@ -138,6 +138,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_span({list.begin, list.end}, text);
   if (const auto hover = service.hover(byte)) check_span(hover->span, text);
   if (const auto place = service.definition(byte)) require(!place->file.empty());
-  rename_and_back(texts, file, byte);
+  const std::vector<ScriptSymbol> symbols = service.symbols();
+  if (symbols.empty()) return 0;
+  rename_and_back(texts, file, symbols[data[0] / 2 % symbols.size()].definition.begin);
   return 0;
 }
