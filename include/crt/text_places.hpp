@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace crt {
@@ -22,8 +23,8 @@ struct LineColumn {
 enum class ColumnUnit { utf8, utf16 };
 
 /// TextPlaces translates the places of one text, which is not kept. Places behind the end are the
-/// end. Each question takes about the logarithm of how long the text is. A line ends with \n, \r\n
-/// or \r, and a byte that is not UTF-8 is one unit.
+/// end. Each question takes about the logarithm of how long the text is. A line ends with a line
+/// feed, a carriage return or both, and a byte that is not UTF-8 is one unit.
 class TextPlaces {
  public:
   /// Takes a text of less than 4 GiB.
@@ -45,20 +46,13 @@ class TextPlaces {
   TextSpan span_of(const SourcePlace& place) const;
 
  private:
-  /// A WideCharacter takes more than one byte.
-  struct WideCharacter {
-    std::uint32_t byte = 0;
-    std::uint32_t unit = 0;
-    std::uint32_t bytes = 0;
-    std::uint32_t units = 0;
-  };
-
   std::uint32_t advance(std::uint32_t byte, int code_points, std::uint32_t end) const;
 
   std::uint32_t size_ = 0;
   /// Says where each line begins and ends. Its end is not in it.
   std::vector<TextSpan> lines_;
-  std::vector<WideCharacter> wide_;
+  /// Has the bytes and the units of UTF-16 of each character that takes more than a byte.
+  std::vector<std::pair<TextSpan, TextSpan>> wide_;
 };
 
 }  // namespace crt

@@ -74,13 +74,18 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 /* There is no sign that ends a statement, so an expression is as long as it can be. Before a token
    that could either continue it or begin the next one, continuing has the higher precedence. */
 %precedence END_OF_EXPRESSION
-%precedence "+" "-" "(" "["
+%precedence "(" "["
+/* Operators of one nonterminal bind in this order. A nonterminal for each level would cost time, as
+   it is reduced at each operand. */
+%left "||"
+%left "&&"
+%left "+" "-" "^"
+%left "*" "/" "%"
 
 %nterm <Block> statements script_statements block
 %nterm <Statement> statement script_statement while if for return settings scene import
 %nterm <If> if_branches
-%nterm <Expression*> expression conditional disjunction conjunction comparison
-%nterm <Expression*> additive multiplicative unary power postfix primary object macro list literal
+%nterm <Expression*> expression conditional logical comparison arithmetic unary postfix
 %nterm <Expression*> condition
 %nterm <std::vector<const Expression*>> expressions expressions_or_none items
 %nterm <std::vector<AttributeSyntax>> attributes
@@ -89,8 +94,7 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %nterm <NamePlace> parameter
 %nterm <std::vector<Modifier>> modifiers
 %nterm <Modifier> modifier
-%nterm <BinaryOperator> comparison_operator additive_operator multiplicative_operator
-%nterm <BinaryOperator> assignment_operator
+%nterm <BinaryOperator> comparison_operator assignment_operator
 /* This stands after each opening of something that can hold itself, and lives as long as that is
    open. */
 %nterm <Nesting> nest
@@ -171,33 +175,18 @@ assignment_operator:
   | "*=" { $$ = BinaryOperator::multiply; }  | "/=" { $$ = BinaryOperator::divide; }
 
 conditional:
-    disjunction                              { $$ = $1; }
-  | disjunction "?" nest expression ":" conditional
+    logical                                  { $$ = $1; }
+  | logical "?" nest expression ":" conditional
                                              { $$ = tree.expression(@$, Conditional{$1, $4, $6}); }
 
-disjunction:
-    conjunction                              { $$ = $1; }
-  | disjunction "||" conjunction
-                                   { $$ = tree.logical(LogicalOperator::disjunction, $1, $3); }
-
-conjunction:
+logical:
     comparison                               { $$ = $1; }
-  | conjunction "&&" comparison
-                                   { $$ = tree.logical(LogicalOperator::conjunction, $1, $3); }
+  | logical "||" logical           { $$ = tree.logical(LogicalOperator::disjunction, $1, $3); }
+  | logical "&&" logical           { $$ = tree.logical(LogicalOperator::conjunction, $1, $3); }
 
 comparison:
-    additive %prec END_OF_EXPRESSION         { $$ = $1; }
-  | comparison comparison_operator additive %prec END_OF_EXPRESSION
-                                             { $$ = tree.chain($1, $2, @2, $3); }
-
-additive:
-    multiplicative                           { $$ = $1; }
-  | additive additive_operator multiplicative
-                                             { $$ = tree.chain($1, $2, @2, $3); }
-
-multiplicative:
-    unary                                    { $$ = $1; }
-  | multiplicative multiplicative_operator unary
+    arithmetic %prec END_OF_EXPRESSION       { $$ = $1; }
+  | comparison comparison_operator arithmetic %prec END_OF_EXPRESSION
                                              { $$ = tree.chain($1, $2, @2, $3); }
 
 comparison_operator:
@@ -205,30 +194,43 @@ comparison_operator:
   | ">"  { $$ = BinaryOperator::greater; }   | ">=" { $$ = BinaryOperator::greater_or_equal; }
   | "==" { $$ = BinaryOperator::equal; }     | "!=" { $$ = BinaryOperator::not_equal; }
 
-additive_operator:
-    "+"  { $$ = BinaryOperator::add; }       | "-"  { $$ = BinaryOperator::subtract; }
-  | "^"  { $$ = BinaryOperator::intersect; }
+arithmetic:
+    unary                                    { $$ = $1; }
+  | arithmetic "+" arithmetic      { $$ = tree.chain($1, BinaryOperator::add, @2, $3); }
+  | arithmetic "-" arithmetic      { $$ = tree.chain($1, BinaryOperator::subtract, @2, $3); }
+  | arithmetic "^" arithmetic      { $$ = tree.chain($1, BinaryOperator::intersect, @2, $3); }
+  | arithmetic "*" arithmetic      { $$ = tree.chain($1, BinaryOperator::multiply, @2, $3); }
+  | arithmetic "/" arithmetic      { $$ = tree.chain($1, BinaryOperator::divide, @2, $3); }
+  | arithmetic "%" arithmetic      { $$ = tree.chain($1, BinaryOperator::remainder, @2, $3); }
 
-multiplicative_operator:
-    "*"  { $$ = BinaryOperator::multiply; }  | "/"  { $$ = BinaryOperator::divide; }
-  | "%"  { $$ = BinaryOperator::remainder; }
-
+/* The exponent may have a sign, and the base none: -a ** b is -(a ** b). */
 unary:
-    power                                    { $$ = $1; }
+    postfix %prec END_OF_EXPRESSION          { $$ = $1; }
+  | postfix "**" nest unary   { $$ = tree.chain($1, BinaryOperator::power, @2, $4); }
   | "+" nest unary
                                    { $$ = tree.expression(@$, Unary{UnaryOperator::plus, $3}); }
   | "-" nest unary
                                    { $$ = tree.expression(@$, Unary{UnaryOperator::minus, $3}); }
-  | "!" nest unary
-                                   { $$ = tree.expression(@$, Unary{UnaryOperator::negation, $3}); }
+  | "!" nest unary                 { $$ = tree.expression(@$, Unary{UnaryOperator::negation, $3}); }
 
-/* The exponent may have a sign, and the base none: -a ** b is -(a ** b). */
-power:
-    postfix %prec END_OF_EXPRESSION          { $$ = $1; }
-  | postfix "**" nest unary   { $$ = tree.chain($1, BinaryOperator::power, @2, $4); }
-
+/* Primaries are here, too. A nonterminal for them would only be reduced to this one. */
 postfix:
-    primary                                  { $$ = $1; }
+    INTEGER                                  { $$ = tree.literal(@$, $1); }
+  | FLOAT                                    { $$ = tree.literal(@$, $1); }
+  | STRING                                   { $$ = tree.literal(@$, tree.string($1)); }
+  | "true"                                   { $$ = tree.literal(@$, true); }
+  | "false"                                  { $$ = tree.literal(@$, false); }
+  | IDENTIFIER                               { $$ = tree.expression(@$, Name{$1});
+                                               /* Bison reports nothing for three tokens after
+                                                  an error, but errors on the next line count. */
+                                               if (tree.is_past_error(@1)) yyerrok; }
+  | open nest expression ")"                 { $$ = $3; }
+  | "[" nest items "]"                       { $$ = tree.expression(@$, ListLiteral{$3}); }
+  | "[ first on its line" nest items "]"     { $$ = tree.expression(@$, ListLiteral{$3}); }
+  | OBJECT_NAME "{" nest attributes "}"
+                                   { $$ = tree.expression(@$, ObjectLiteral{{$1, @1}, $4}); }
+  | "Macro" open parameters_or_none ")" block
+                                             { $$ = tree.macro(@$, $3, $5); }
   | postfix "[" nest expression "]"          { $$ = tree.expression(@$, Index{$1, $4}); }
   | postfix "(" nest expressions_or_none ")" { $$ = tree.expression(@$, Call{$1, $4}); }
   | postfix "< before a modifier" nest modifiers ">"
@@ -238,15 +240,15 @@ modifiers:
     modifier                                 { $$.push_back($1); }
   | modifiers "," modifier                   { $$ = $1; $$.push_back($3); }
 
-/* The operand is an additive expression, so that '>' always closes the list. */
+/* The operand is an arithmetic expression, so that '>' always closes the list. */
 modifier:
-    "scale" additive                         { $$ = {ModifierKind::scale, $2}; }
-  | "translate" additive                     { $$ = {ModifierKind::translate, $2}; }
-  | "rotate" additive                        { $$ = {ModifierKind::rotate, $2}; }
-  | "material" additive                      { $$ = {ModifierKind::material, $2}; }
-  | "id" additive                            { $$ = {ModifierKind::id, $2}; }
-  | "matrix" additive                        { $$ = {ModifierKind::matrix, $2}; }
-  | IDENTIFIER additive                      { tree.unknown_modifier(@1);
+    "scale" arithmetic                     { $$ = {ModifierKind::scale, $2}; }
+  | "translate" arithmetic                     { $$ = {ModifierKind::translate, $2}; }
+  | "rotate" arithmetic                        { $$ = {ModifierKind::rotate, $2}; }
+  | "material" arithmetic                      { $$ = {ModifierKind::material, $2}; }
+  | "id" arithmetic                     { $$ = {ModifierKind::id, $2}; }
+  | "matrix" arithmetic                        { $$ = {ModifierKind::matrix, $2}; }
+  | IDENTIFIER arithmetic                      { tree.unknown_modifier(@1);
                                                $$ = {ModifierKind::scale, $2}; }
 
 expressions_or_none:
@@ -257,36 +259,10 @@ expressions:
     expression                               { $$.push_back($1); }
   | expressions "," expression               { $$ = $1; $$.push_back($3); }
 
-primary:
-    open nest expression ")"                 { $$ = $3; }
-  | literal                                  { $$ = $1; }
-  | IDENTIFIER                               { $$ = tree.expression(@$, Name{$1});
-                                               /* Bison reports nothing for three tokens after
-                                                  an error, but errors on the next line count. */
-                                               if (tree.is_past_error(@1)) yyerrok; }
-  | object                                   { $$ = $1; }
-  | macro                                    { $$ = $1; }
-  | list                                     { $$ = $1; }
-
-literal:
-    INTEGER                                  { $$ = tree.literal(@$, $1); }
-  | FLOAT                                    { $$ = tree.literal(@$, $1); }
-  | STRING                                   { $$ = tree.literal(@$, tree.string($1)); }
-  | "true"                                   { $$ = tree.literal(@$, true); }
-  | "false"                                  { $$ = tree.literal(@$, false); }
-
-list:
-    "[" nest items "]"                       { $$ = tree.expression(@$, ListLiteral{$3}); }
-  | "[ first on its line" nest items "]"     { $$ = tree.expression(@$, ListLiteral{$3}); }
-
 /* A comma may stand after the last item, so that lists with a line for each item look regular. */
 items:
     expressions_or_none                      { $$ = $1; }
   | expressions ","                          { $$ = $1; }
-
-object:
-    OBJECT_NAME "{" nest attributes "}"
-                                   { $$ = tree.expression(@$, ObjectLiteral{{$1, @1}, $4}); }
 
 attributes:
     %empty                                   { }
@@ -294,9 +270,6 @@ attributes:
   | attributes error                         { $$ = $1; }
 
 attribute: IDENTIFIER "->" expression        { $$ = {{$1, @1}, $3}; }
-
-macro: "Macro" open parameters_or_none ")" block
-                                             { $$ = tree.macro(@$, $3, $5); }
 
 parameters_or_none:
     %empty                                   { }

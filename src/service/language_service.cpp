@@ -20,16 +20,14 @@
 
 namespace crt {
 
+using service::span_in;
+
 namespace {
 
 /// Returns the pieces of the reference, which are found once.
 const service::Reference& reference() {
   static const service::Reference reference(service::reference_text());
   return reference;
-}
-
-TextSpan span_in(const lang::Source& source, lang::Span span) {
-  return {span.begin - source.base, span.end - source.base};
 }
 
 ScriptLocation location_of(const service::Place& place) {

@@ -25,6 +25,11 @@ std::filesystem::path canonical_or_given(const std::filesystem::path& path) {
 
 }  // namespace
 
+TextSpan span_in(const lang::Source& source, lang::Span span) {
+  const auto size = static_cast<std::uint32_t>(source.text.size());
+  return {std::min(span.begin - source.base, size), std::min(span.end - source.base, size)};
+}
+
 int compat_of(const lang::SourceMap& sources, const lang::Source& source,
               const ScriptOptions& options) {
   if (options.compat != 0) return options.compat;

@@ -82,6 +82,10 @@ class Program {
   lang::NameMap names_;
 };
 
+/// Returns a span of a source in bytes of its text. Brackets that the front end closed stand behind
+/// the end of the text, and end there.
+TextSpan span_in(const lang::Source& source, lang::Span span);
+
 /// Returns the year that a text says it is a script of, as far as the front end knows it, or 0.
 int compat_of(const lang::SourceMap& sources, const lang::Source& source,
               const ScriptOptions& options);

@@ -178,10 +178,7 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
     return std::string(program_.symbols().name(symbol));
   }
 
-  TextSpan place_of(lang::Span span) const {
-    const std::uint32_t base = program_.main().base;
-    return {span.begin - base, span.end - base};
-  }
+  TextSpan place_of(lang::Span span) const { return span_in(program_.main(), span); }
 
   const lang::DeclaredName* declared(lang::Span span) const {
     const lang::NameUse* use = lang::use_at(program_.names(), span.begin);

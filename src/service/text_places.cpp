@@ -38,35 +38,30 @@ TextPlaces::TextPlaces(std::string_view text) : size_(static_cast<std::uint32_t>
     place = static_cast<std::size_t>(next - text.begin());
     const auto byte = static_cast<std::uint32_t>(place);
     const std::uint32_t units = lang::decode_utf8(text, place) >= first_of_two_units ? 2 : 1;
-    const std::uint32_t bytes = static_cast<std::uint32_t>(place) - byte;
     unit += byte - behind;
-    wide_.push_back({.byte = byte, .unit = unit, .bytes = bytes, .units = units});
+    behind = static_cast<std::uint32_t>(place);
+    wide_.push_back({{byte, behind}, {unit, unit + units}});
     unit += units;
-    behind = byte + bytes;
   }
 }
 
 std::uint32_t TextPlaces::unit_of(std::uint32_t byte) const {
   byte = std::min(byte, size_);
-  const auto behind =
-      std::upper_bound(wide_.begin(), wide_.end(), byte,
-                       [](std::uint32_t place, const auto& wide) { return place < wide.byte; });
-  if (behind == wide_.begin()) return byte;
-  const WideCharacter& wide = *std::prev(behind);
-  const std::uint32_t end = wide.byte + wide.bytes;
-  return byte < end ? wide.unit : wide.unit + wide.units + (byte - end);
+  const auto after = std::upper_bound(
+      wide_.begin(), wide_.end(), byte,
+      [](std::uint32_t place, const auto& wide) { return place < wide.first.begin; });
+  if (after == wide_.begin()) return byte;
+  const auto& [bytes, units] = *std::prev(after);
+  return byte < bytes.end ? units.begin : units.end + (byte - bytes.end);
 }
 
 std::uint32_t TextPlaces::byte_of(std::uint32_t unit) const {
-  const auto behind =
-      std::upper_bound(wide_.begin(), wide_.end(), unit,
-                       [](std::uint32_t place, const auto& wide) { return place < wide.unit; });
-  if (behind == wide_.begin()) return std::min(unit, size_);
-  const WideCharacter& wide = *std::prev(behind);
-  const std::uint32_t distance = unit - wide.unit;
-  if (distance < wide.units) return wide.byte;
-  const std::uint32_t end = wide.byte + wide.bytes;
-  return end + std::min(distance - wide.units, size_ - end);
+  const auto after = std::upper_bound(
+      wide_.begin(), wide_.end(), unit,
+      [](std::uint32_t place, const auto& wide) { return place < wide.second.begin; });
+  if (after == wide_.begin()) return std::min(unit, size_);
+  const auto& [bytes, units] = *std::prev(after);
+  return unit < units.end ? bytes.begin : bytes.end + std::min(unit - units.end, size_ - bytes.end);
 }
 
 LineColumn TextPlaces::position_of(std::uint32_t byte, ColumnUnit unit) const {
@@ -91,12 +86,13 @@ std::uint32_t TextPlaces::byte_at(LineColumn position, ColumnUnit unit) const {
 /// Returns the byte so many code points further on, or the end.
 std::uint32_t TextPlaces::advance(std::uint32_t byte, int code_points, std::uint32_t end) const {
   auto left = static_cast<std::uint32_t>(std::max(code_points, 0));
-  auto wide =
-      std::lower_bound(wide_.begin(), wide_.end(), byte,
-                       [](const auto& character, auto place) { return character.byte < place; });
-  for (; wide != wide_.end() && wide->byte < end && wide->byte - byte < left; ++wide) {
-    left -= wide->byte - byte + 1;
-    byte = wide->byte + wide->bytes;
+  auto wide = std::lower_bound(
+      wide_.begin(), wide_.end(), byte,
+      [](const auto& known, std::uint32_t place) { return known.first.begin < place; });
+  for (; wide != wide_.end() && wide->first.begin < end && wide->first.begin - byte < left;
+       ++wide) {
+    left -= wide->first.begin - byte + 1;
+    byte = wide->first.end;
   }
   return byte + std::min(left, end - byte);
 }

@@ -56,10 +56,9 @@ std::optional<TokenKind> kind_of(const Program& program, const lang::Token& toke
 }  // namespace
 
 std::vector<ScriptToken> tokens_of(const Program& program) {
-  const std::uint32_t base = program.main().base;
   std::vector<ScriptToken> result;
   const auto add = [&](lang::Span span, TokenKind kind) {
-    result.push_back({{span.begin - base, span.end - base}, kind});
+    result.push_back({span_in(program.main(), span), kind});
   };
   const auto& [tokens, comments, open] = program.tokens();
   auto comment = comments.begin();

@@ -19,11 +19,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array<const char*, 13> node_kinds = {
-    "settings", "scene", "import", "assignment", "macro", "object", "combination",
-    "placed",   "call",  "name",   "list",       "loop",  "choice"};
-constexpr std::array<const char*, 6> literal_kinds = {"none",   "number", "boolean",
-                                                      "string", "vector", "color"};
 constexpr std::array<const char*, 7> completion_kinds = {
     "attribute", "object", "variable", "macro", "function", "constant", "keyword"};
 constexpr std::array<const char*, 6> phases = {"script", "preparing", "rendering",
@@ -38,30 +33,6 @@ json span_json(const TextPlaces& places, TextSpan span) {
 
 json vector_json(const Vec3& v) {
   return {v.x, v.y, v.z};
-}
-
-json attribute_json(const TextPlaces& places, const ScriptAttribute& attribute) {
-  json result = {{"name", attribute.name},
-                 {"nameSpan", span_json(places, attribute.name_span)},
-                 {"span", span_json(places, attribute.value_span)},
-                 {"literal", literal_kinds.at(static_cast<std::size_t>(attribute.literal))}};
-  if (!attribute.numbers.empty()) result["numbers"] = attribute.numbers;
-  if (attribute.literal == LiteralKind::string) result["text"] = attribute.text;
-  if (!attribute.reason.empty()) result["reason"] = attribute.reason;
-  return result;
-}
-
-json node_json(const TextPlaces& places, const ScriptNode& node) {
-  json attributes = json::array();
-  for (const ScriptAttribute& attribute : node.attributes)
-    attributes.push_back(attribute_json(places, attribute));
-  const bool is_root = node.parent == ScriptNode::no_parent;
-  return {{"kind", node_kinds.at(static_cast<std::size_t>(node.kind))},
-          {"name", node.name},
-          {"span", span_json(places, node.span)},
-          {"nameSpan", span_json(places, node.name_span)},
-          {"parent", is_root ? -1 : static_cast<std::int64_t>(node.parent)},
-          {"attributes", std::move(attributes)}};
 }
 
 TextPlaces places_of(const View& view) {
@@ -93,22 +64,6 @@ json location_json(const Analysis& analysis, const ScriptLocation& location) {
 }
 
 }  // namespace
-
-json tokens_message(const Analysis& analysis) {
-  json tokens = json::array();
-  for (const ScriptToken& token : analysis.service.tokens()) {
-    tokens.push_back(analysis.places.unit_of(token.span.begin));
-    tokens.push_back(analysis.places.unit_of(token.span.end));
-    tokens.push_back(static_cast<std::uint32_t>(token.kind));
-  }
-  json tree = json::array();
-  for (const ScriptNode& node : analysis.service.tree())
-    tree.push_back(node_json(analysis.places, node));
-  return {{"type", "analysis"},
-          {"revision", analysis.revision.number},
-          {"tokens", std::move(tokens)},
-          {"tree", std::move(tree)}};
-}
 
 json diagnostics_message(const Analysis& analysis) {
   json list = json::array();

@@ -12,7 +12,6 @@
 
 namespace crt::studio {
 
-nlohmann::json tokens_message(const Analysis& analysis);
 nlohmann::json diagnostics_message(const Analysis& analysis);
 nlohmann::json state_message(const RenderState& state);
 nlohmann::json scene_message(const View& view);

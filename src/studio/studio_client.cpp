@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "studio/access.hpp"
+#include "studio/analysis_message.hpp"
 #include "studio/analyst.hpp"
 #include "studio/messages.hpp"
 #include "studio/typed_keeper.hpp"
@@ -53,7 +54,7 @@ class StudioClient : public ViewClient {
         folder_(std::move(folder)),
         pages_(std::move(pages)),
         page_(make_token()),
-        analyst_([this](const Analysis& analysis) { send(tokens_message(analysis)); },
+        analyst_([this](const Analysis& analysis) { send_text(analysis_message(analysis)); },
                  [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
         keeper_(folder_) {
     on("open", [this](const json& message) { open(message); });

@@ -72,7 +72,7 @@ RenderEvents ViewClient::events(Show show) {
 }
 
 void ViewClient::send(const json& message) const {
-  connection_->send_text(text_of(message));
+  send_text(text_of(message));
 }
 
 /// The renderer's thread alone calls it.

@@ -32,6 +32,8 @@ class ViewClient : public Client {
   /// Says what takes messages of a type.
   void on(const char* type, Handler handler) { handlers_[type] = std::move(handler); }
   void send(const nlohmann::json& message) const;
+  /// Sends a message that is text already.
+  void send_text(std::string text) const { connection_->send_text(std::move(text)); }
   /// Answers a message with what is wrong with it.
   void complain(const std::string& why, const nlohmann::json& message) const;
   Renderer& renderer() { return renderer_; }

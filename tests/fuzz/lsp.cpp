@@ -73,8 +73,14 @@ void ask_everywhere(Client& client, const std::string& text) {
                          {"newName", "fuzz"}};
     for (const char* method :
          {"textDocument/completion", "textDocument/hover", "textDocument/definition",
-          "textDocument/rename", "textDocument/formatting", "textDocument/documentSymbol"})
+          "textDocument/references", "textDocument/documentHighlight", "textDocument/prepareRename",
+          "textDocument/rename", "textDocument/formatting", "textDocument/documentSymbol",
+          "textDocument/semanticTokens/full"})
       client.ask(method, params);
+    const json place = params.at("position");
+    const json change = {{"range", {{"start", place}, {"end", place}}}, {"text", "x = y "}};
+    client.notify("textDocument/didChange",
+                  {{"textDocument", item}, {"contentChanges", json::array({change})}});
   }
 }
 

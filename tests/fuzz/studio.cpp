@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "studio/folder.hpp"
+#include "studio/open_pages.hpp"
 #include "studio/studio_client.hpp"
 
 namespace {
@@ -72,7 +73,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const FuzzedFolder fuzzed;
   crt::write_file(fuzzed.path / "a.crt", script);
   const auto page = std::make_shared<Page>();
-  const auto client = make_studio_client(page, fuzzed.folder, {.script = "a.crt", .threads = 1});
+  const auto client = make_studio_client(page, fuzzed.folder, std::make_shared<OpenPages>(),
+                                         {.script = "a.crt", .threads = 1});
   client->receive(R"({"type":"open","script":"a.crt"})");
   client->receive(
       json{{"type", "text"}, {"revision", 1}, {"script", "a.crt"}, {"text", script}}.dump());

@@ -265,6 +265,8 @@ TEST_CASE("a script that is right has no diagnostics, and a broken one keeps wha
   const LanguageService service(broken, "wall.crt");
   CHECK_FALSE(service.diagnostics().empty());
   CHECK(service.tree().size() >= LanguageService(script, "wall.crt").tree().size());
+  for (const ScriptNode& node : LanguageService("Scene { Box { ", "open.crt").tree())
+    CHECK(node.span.end <= 14);
   CHECK(LanguageService("", "").tree().empty());
   CHECK(LanguageService("", "").tokens().empty());
 }
