@@ -93,29 +93,10 @@ std::string Syntax::boolean(bool value) const {
   return value ? "1" : "0";
 }
 
-std::string Syntax::script_text(const std::string& content) const {
-  if (!is_utf8(content))
-    throw Error(ErrorCode::unsupported, "a text is not UTF-8, which scripts are written in");
-  std::string result = "\"";
-  for (const char c : content) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (c == '\n') {
-      result += "\\n";
-    } else if (byte < ' ' || byte == 0x7f) {
-      result += fmt::format("\\u{:04x}", byte);
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
-
 std::string Syntax::text(const std::string& content) const {
-  if (is_script()) return script_text(content);
-  constexpr std::size_t most_in_a_piece = 72;
+  if (is_script() && !is_utf8(content))
+    throw Error(ErrorCode::unsupported, "a text is not UTF-8, which scripts are written in");
+  const std::size_t most_in_a_piece = is_script() ? std::string::npos : 72;
   std::string result = "\"";
   std::size_t piece = 0;
   for (const char c : content) {
@@ -131,8 +112,8 @@ std::string Syntax::text(const std::string& content) const {
     } else if (c == '\n') {
       result += "\\n";
     } else if (byte < ' ' || byte == 0x7f) {
-      result += fmt::format("\\{:03o}", byte);
-    } else if (c == '?' && !is_python()) {
+      result += is_script() ? fmt::format("\\u{:04x}", byte) : fmt::format("\\{:03o}", byte);
+    } else if (c == '?' && (is_cpp() || is_c())) {
       result += "\\?";  // two would begin a trigraph
     } else {
       result += c;
@@ -169,10 +150,6 @@ std::string Syntax::constructed(const std::string& name, std::span<const std::st
   std::string text = name + " { ";
   for (const std::string& item : items) text += item + " ";
   return text + "}";
-}
-
-std::string Syntax::call(const std::string& function, std::span<const std::string> arguments) {
-  return joined(function + "(", arguments, ")");
 }
 
 std::string Syntax::enumerator(const char* type, const char* prefix, std::string_view name) const {

@@ -38,14 +38,10 @@ class Syntax {
   std::string list(std::span<const std::string> items) const;
   /// Returns "Name{items}", "crt.Name(items)" or "Name { items }".
   std::string constructed(const std::string& name, std::span<const std::string> items) const;
-  /// Returns a call with arguments.
-  static std::string call(const std::string& function, std::span<const std::string> arguments);
   /// Returns an enumerator. `prefix` is what its name in C begins with, such as "CRT_FILTER".
   std::string enumerator(const char* type, const char* prefix, std::string_view name) const;
 
  private:
-  std::string script_text(const std::string& content) const;
-
   SourceLanguage language_;
 };
 

@@ -75,6 +75,18 @@ class Server:
         connection.close()
         return status
 
+    def send_noise(self):
+        """Sends what is no request, on a connection for each, and reads until its end."""
+        for noise in (b"\0" * 100, b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 5000, b"\r\n\r\n"):
+            with self.connect() as connection:
+                try:
+                    connection.sendall(noise)
+                    connection.shutdown(socket.SHUT_WR)
+                    while connection.recv(65536):
+                        pass
+                except OSError:
+                    pass  # the server was done with it before
+
     def upgrade(self, token=None, **how):
         key = base64.b64encode(os.urandom(16)).decode()
         return self.request(
