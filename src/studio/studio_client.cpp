@@ -15,6 +15,7 @@
 #include "studio/typed_keeper.hpp"
 #include "studio/view_client.hpp"
 #include "studio/view_messages.hpp"
+#include "text/first_script.hpp"
 
 namespace crt::studio {
 
@@ -69,6 +70,7 @@ class StudioClient : public ViewClient {
           {"folder", folder_->path().string()},
           {"script", options.script},
           {"scripts", folder_->scripts()},
+          {"beginning", text::first_script("scene.crt")},
           {"objects", objects_json()}});
   }
   ~StudioClient() override { pages_->remove(file_, page_); }

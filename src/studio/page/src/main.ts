@@ -160,6 +160,7 @@ class Studio {
       case 'hello':
         this.sheet.describe(message.objects);
         this.console.add(`CRT ${message.version}` + (message.folder && `, folder ${message.folder}`));
+        this.file.beginning = message.beginning ?? '';
         this.file.start(message.folder, message.script, message.scripts);
         break;
       case 'opened':

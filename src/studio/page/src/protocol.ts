@@ -148,7 +148,7 @@ export interface State {
 
 export type Message =
   | {type: 'hello'; version: string; folder: string; script: string; scripts: string[];
-     objects: ObjectDescription[]}
+     beginning?: string; objects: ObjectDescription[]}
   | {type: 'opened'; script: string; text: string; typed?: string; readOnly?: boolean}
   | {type: 'analysis'; revision: number; tokens: number[]; tree: TreeNode[]}
   | {type: 'diagnostics'; revision: number; diagnostics: Diagnostic[]}

@@ -1,6 +1,5 @@
 // The script's file: what is opened, saved, kept until then, and written by other programs.
 
-import {beginning} from './beginning';
 import {ask, endQuestion} from './question';
 import {storage} from './storage';
 
@@ -38,6 +37,8 @@ export class ScriptFile {
   /** The file was changed by another program, and what is to become of it was not answered. */
   private isInConflict = false;
   private scripts: string[] = [];
+  /** A script to begin with, which calls itself scene.crt. */
+  beginning = '';
 
   constructor(private readonly host: ScriptHost) {
     this.list.setAttribute('aria-label', 'Script to open');
@@ -81,7 +82,8 @@ export class ScriptFile {
     if (this.scripts.includes(name)) return this.open(name);
     this.leave();
     this.page = newPageName();
-    this.take(name, '', storage.getItem(this.draftKey) ?? beginning);
+    this.take(name, '', storage.getItem(this.draftKey) ??
+              this.beginning.replace('scene.crt', () => name));
     this.host.note(`${name} is in the folder once it is saved.`);
   }
 

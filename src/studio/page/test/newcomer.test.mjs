@@ -1,11 +1,12 @@
 // A newcomer's first five minutes: open an example, type, drag, turn, click, undo and save.
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {test} from 'node:test';
 import {browser, clickPicture, dragPicture, scene, selectedText, shownBytes, withPage}
   from './page.mjs';
-import {copyScene, folderWith, openPage, rendered, startServer, text, type, whole}
+import {command, copyScene, folderWith, openPage, rendered, startServer, text, type, whole}
   from './studio.mjs';
 
 test('a newcomer opens an example, changes it, looks around and saves it', async () => {
@@ -76,6 +77,9 @@ test('in a folder without a script one is begun, rendered and saved', async () =
     assert.equal(await page.locator('#status').textContent(), '');
     assert.equal(await page.locator('.console .warning').count(), 0);
     const begun = await text(page);
+    execFileSync(command, ['new', 'new.crt', '-q'], {cwd: folder});
+    const written = readFileSync(join(folder, 'new.crt'), 'utf8');
+    assert.equal(begun, written.replace('new.crt', 'first.crt'));
     await page.getByRole('button', {name: 'Format'}).click();
     await page.evaluate(() => studio.ask('hover', 0));
     assert.equal(await text(page), begun);
