@@ -119,7 +119,8 @@ void write_script(Program& program, const Scene& scene) {
   fields.add_text("background", "", source::background_value(program, scene.background));
   std::string settings;
   for (const std::string& setting : fields.assignments()) settings += "    " + setting + "\n";
-  program.add_block("\nSettings {\n" + source::wrapped(settings, 12) + "}\n");
+  const char* const gap = program.lines().empty() ? "" : "\n";
+  program.add_block(gap + ("Settings {\n" + source::wrapped(settings, 12) + "}\n"));
   program.add_block("\nScene {\n" + source::wrapped(indented(entities), 8) + "}\n");
 }
 
