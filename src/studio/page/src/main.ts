@@ -46,7 +46,10 @@ class Studio {
     cameraMoved: (camera) => this.setCamera(camera),
     cameraReset: () => this.setCamera(null),
     picked: (x, y, focuses) => void this.pick(x, y, focuses),
-    regionChosen: (region) => this.viewState.set({region}),
+    regionChosen: (region) => {
+      this.controls.wantRegion(false);
+      this.viewState.set({region});
+    },
   });
   private readonly controls = new ViewControls(this.viewState, this.view.comparison, {
     askBoxes: async () => (await this.askBoxes()).boxes,

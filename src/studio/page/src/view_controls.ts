@@ -63,6 +63,7 @@ export class ViewControls {
     this.element.append(this.channel, bounds, cutters, this.section.element, comparison.controls,
                         this.region, this.whole, this.all, this.time.element, this.place);
     this.place.title = 'Where the picture was clicked last';
+    this.region.setAttribute('aria-pressed', 'false');
     this.update();
   }
 
@@ -70,7 +71,8 @@ export class ViewControls {
     return this.region.getAttribute('aria-pressed') === 'true';
   }
 
-  private wantRegion(isWanted: boolean): void {
+  /** Lets the next drag choose a region, or not. */
+  wantRegion(isWanted: boolean): void {
     this.region.setAttribute('aria-pressed', String(isWanted));
     this.host.regionWanted(isWanted);
   }
@@ -97,7 +99,6 @@ export class ViewControls {
   update(): void {
     this.whole.hidden = this.state.options.region === null;
     this.region.hidden = !this.whole.hidden;
-    if (this.region.hidden || !this.region.hasAttribute('aria-pressed')) this.wantRegion(false);
     this.all.hidden = this.state.options.hidden.length === 0;
   }
 

@@ -184,8 +184,13 @@ withPage('a tablet has large targets, panels for each way it is held, and gestur
   await page.getByLabel('position x').waitFor();
   assert.deepEqual(await tooSmall(page, 40), []);
 
-  // A region is chosen by a button and a finger.
-  await page.getByRole('button', {name: 'Region'}).tap();
+  // A region is chosen by a button and a finger. Escape takes that back.
+  const region = page.getByRole('button', {name: 'Region'});
+  await region.tap();
+  assert.equal(await region.getAttribute('aria-pressed'), 'true');
+  await page.locator('.live canvas').press('Escape');
+  assert.equal(await region.getAttribute('aria-pressed'), 'false');
+  await region.tap();
   const {x, y, width, height} = await page.locator('.live canvas').boundingBox();
   const touch = await page.context().newCDPSession(page);
   const send = (kind, points) => touch.send('Input.dispatchTouchEvent', {
