@@ -12,6 +12,7 @@
 #include "lang/failure.hpp"
 #include "lang/fields.hpp"
 #include "lang/suggestion.hpp"
+#include "text/letters.hpp"
 
 namespace crt::lang {
 
@@ -39,18 +40,11 @@ const Wanted& get(const Given& given) {
   return *value;
 }
 
-std::string in_small_letters(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
 /// Reads one of some words, in small letters or large ones.
 template <class Enum, std::size_t count>
 void choose(const Given& given, const std::array<std::pair<std::string_view, Enum>, count>& choices,
             Enum& field) {
-  const std::string text = in_small_letters(get<String>(given)->text);
+  const std::string text = text::in_small_letters(get<String>(given)->text);
   std::vector<std::string_view> names;
   std::vector<std::string> quoted;
   for (const auto& [name, value] : choices) {

@@ -10,18 +10,11 @@
 #include "lang/lexer.hpp"
 #include "lang/objects.hpp"
 #include "lang/word_byte.hpp"
+#include "text/letters.hpp"
 
 namespace crt::lang {
 
 namespace {
-
-std::string in_small_letters(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
-}
 
 bool is_line_end(unsigned char c) {
   return c == '\n' || c == '\r';
@@ -38,10 +31,10 @@ constexpr std::array<std::string_view, 6> words_for_nothing = {"null", "nil", "n
 /// Returns the name of the object that has these letters, or nothing.
 std::string_view object_of(std::string_view small_name) {
   for (const std::string_view block : {"Settings", "Scene"}) {
-    if (in_small_letters(block) == small_name) return block;
+    if (text::in_small_letters(block) == small_name) return block;
   }
   for (const ObjectType& type : object_types()) {
-    if (in_small_letters(type.name) == small_name) return type.name;
+    if (text::in_small_letters(type.name) == small_name) return type.name;
   }
   return {};
 }
@@ -52,7 +45,7 @@ bool is_foreign_modifier(std::string_view word) {
   constexpr std::array<std::string_view, 15> others = {
       "move",  "turn",   "shift",   "spin",    "resize", "transform", "mirror", "flip",
       "color", "colour", "texture", "pigment", "finish", "shear",     "skew"};
-  const std::string small = in_small_letters(word);
+  const std::string small = text::in_small_letters(word);
   if (contains(others, small)) return true;
   for (const std::string_view known : {"rotate", "scale", "translate"}) {
     if (!small.starts_with(known)) continue;
@@ -159,7 +152,7 @@ bool Lexer::refuse_increment() {
 /// Returns a built-in, or true or false, that is written with capitals.
 std::optional<Grammar::symbol_type> Lexer::small_letters_for(std::string_view name) {
   using Token = Grammar::token;
-  const std::string small = in_small_letters(name);
+  const std::string small = text::in_small_letters(name);
   const bool is_truth = small == "true" || small == "false";
   const auto known = builtins();
   const bool is_builtin =
@@ -183,7 +176,7 @@ std::optional<Grammar::symbol_type> Lexer::foreign_word(std::string_view name, b
     }
     // No name can stand before a brace.
     const std::string_view object =
-        *next == '{' ? object_of(in_small_letters(name)) : std::string_view();
+        *next == '{' ? object_of(text::in_small_letters(name)) : std::string_view();
     if (object.empty()) return std::nullopt;
     reporter_.error(token_span(), fmt::format("objects begin with a capital letter: '{}'", object));
     if (object == "Settings") return sign(Token::SETTINGS);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "text/letters.hpp"
+
 namespace crt::lang {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 std::string without_style(std::string_view name) {
   std::string result;
   for (const char c : name) {
-    if (c != '_') result += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (c != '_') result += text::small_letter(c);
   }
   return result;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "text/letters.hpp"
+
 namespace crt::lang {
 
 namespace {
@@ -10,29 +12,18 @@ constexpr std::size_t longest_word = 64;
 /// A script may have millions of names, of which only the first so many are tried.
 constexpr std::size_t most_candidates = 10'000;
 
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-/// Returns a word in small letters, as upper and lower case count as equal.
-std::string lowered(std::string_view word) {
-  std::string result(word);
-  std::transform(result.begin(), result.end(), result.begin(), lower);
-  return result;
-}
-
 }  // namespace
 
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
   if (word.size() > longest_word) return {};
-  const std::string wanted = lowered(word);
+  const std::string wanted = text::in_small_letters(word);
   std::string_view best;
   // A third of the letters may be wrong. In words of one or two letters only the case may be.
   std::size_t best_distance = word.size() / 3 + 1;
   for (std::size_t i = 0; i < std::min(candidates.size(), most_candidates); ++i) {
     const std::string_view candidate = candidates[i];
     if (candidate == word || candidate.size() > longest_word) continue;
-    const std::size_t edits = text::edit_distance(wanted, lowered(candidate));
+    const std::size_t edits = text::edit_distance(wanted, text::in_small_letters(candidate));
     if (edits < best_distance) {
       best = candidate;
       best_distance = edits;

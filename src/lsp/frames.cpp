@@ -6,6 +6,8 @@
 #include <charconv>
 #include <system_error>
 
+#include "text/letters.hpp"
+
 namespace crt::lsp {
 
 namespace {
@@ -13,16 +15,12 @@ namespace {
 constexpr std::string_view header_end = "\r\n\r\n";
 constexpr std::size_t longest_header = 8192;
 
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
 /// Returns the number in a line of a header that gives the length, or nothing in any other line.
 std::optional<std::size_t> length_in(std::string_view line) {
   constexpr std::string_view field = "content-length:";
   if (line.size() < field.size() ||
       !std::equal(field.begin(), field.end(), line.begin(),
-                  [](char wanted, char c) { return lower(c) == wanted; }))
+                  [](char wanted, char c) { return text::small_letter(c) == wanted; }))
     return std::nullopt;
   line.remove_prefix(field.size());
   line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));

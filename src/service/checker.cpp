@@ -11,6 +11,8 @@
 #include <utility>
 #include <variant>
 
+#include "text/letters.hpp"
+
 namespace crt::service {
 
 namespace {
@@ -60,8 +62,7 @@ class TinyFiles {
     if (open_) {
       if (auto content = open_(path)) return content;
     }
-    std::string ending = path.extension().string();
-    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const std::string ending = text::in_small_letters(path.extension().string());
     const auto is_one_of = [&](const auto& endings) {
       return std::find(endings.begin(), endings.end(), ending) != endings.end();
     };

@@ -3,24 +3,15 @@
 #include <optional>
 #include <random>
 
+#include "text/letters.hpp"
+
 namespace crt::studio {
-
-namespace {
-
-std::string in_lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
-}  // namespace
 
 HostNames::HostNames(const IpAddress& listened, const std::vector<std::string>& names)
     : listened_(listened) {
-  for (const std::string& name : names) names_.insert(in_lower_case(name));
+  for (const std::string& name : names) names_.insert(text::in_small_letters(name));
   if (listened.is_loopback() || listened.is_any()) names_.insert("localhost");
-  if (!listened.is_loopback()) names_.insert(in_lower_case(machine_name()));
+  if (!listened.is_loopback()) names_.insert(text::in_small_letters(machine_name()));
   names_.erase("");
 }
 
@@ -35,7 +26,7 @@ bool HostNames::has(std::string_view host, std::uint16_t port, std::uint16_t usu
 }
 
 bool HostNames::has_name(std::string_view name) const {
-  if (names_.contains(in_lower_case(name))) return true;
+  if (names_.contains(text::in_small_letters(name))) return true;
   if (!name.starts_with('[') && name.find(':') != std::string_view::npos) return false;
   const std::optional<IpAddress> address = IpAddress::parse(name);
   if (!address) return false;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "text/letters.hpp"
+
 namespace crt::core {
 
 namespace {
@@ -58,14 +60,6 @@ constexpr std::array<Signature, 18> signatures = {{
     {"Pf"sv, "pnm"},
 }};
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return result;
-}
-
 template <class Condition>
 std::string endings_where(const Condition& holds) {
   std::string endings;
@@ -82,7 +76,7 @@ std::string endings_where(const Condition& holds) {
 const WritableFormat* writable_format(std::string_view file_name) {
   const std::size_t dot = file_name.rfind('.');
   if (dot == std::string_view::npos) return nullptr;
-  const std::string ending = lower_case(file_name.substr(dot + 1));
+  const std::string ending = text::in_small_letters(file_name.substr(dot + 1));
   const auto found =
       std::find_if(writable_formats.begin(), writable_formats.end(),
                    [&](const WritableFormat& format) { return format.ending == ending; });

@@ -5,6 +5,7 @@
 #include "core/mesh_files/ply_header.hpp"
 #include "core/mesh_files/stl.hpp"
 #include "core/mesh_files/text_cursor.hpp"
+#include "text/letters.hpp"
 
 namespace crt::core {
 
@@ -24,8 +25,8 @@ bool is_off(std::string_view content) {
 }
 
 std::optional<MeshFormat> format_of_ending(const std::string& name) {
-  std::string ending = name.substr(std::min(name.rfind('.'), name.size()));
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string ending =
+      text::in_small_letters(name.substr(std::min(name.rfind('.'), name.size())));
   if (ending == ".obj") return MeshFormat::obj;
   if (ending == ".ply") return MeshFormat::ply;
   if (ending == ".stl") return MeshFormat::stl;

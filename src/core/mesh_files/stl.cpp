@@ -10,6 +10,7 @@
 #include "core/mesh_files/readers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "core/mesh_files/text_cursor.hpp"
+#include "text/letters.hpp"
 
 namespace crt::core {
 
@@ -17,9 +18,8 @@ namespace {
 
 /// Compares with a word in lower case.
 bool is_word(std::string_view word, std::string_view lower) {
-  return std::equal(word.begin(), word.end(), lower.begin(), lower.end(), [](char c, char wanted) {
-    return (c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) == wanted;
-  });
+  return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
+                    [](char c, char wanted) { return text::small_letter(c) == wanted; });
 }
 
 std::uint32_t claimed_triangles(std::string_view content) {

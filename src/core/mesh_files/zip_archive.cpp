@@ -11,6 +11,7 @@
 
 #include "core/mesh_files/binary_numbers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
+#include "text/letters.hpp"
 
 namespace crt::core {
 
@@ -74,12 +75,6 @@ void read_64_bits(ZipEntry& entry, std::string_view extra) {
       numbers.remove_prefix(sizeof *number);
     }
   }
-}
-
-std::string in_lower_case(std::string_view name) {
-  std::string result(name);
-  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return result;
 }
 
 /// An Inflater unpacks a stream without the header that zlib's own have.
@@ -157,13 +152,13 @@ void ZipArchive::read_entries(std::uint64_t place, std::uint64_t count) {
         .encrypted = (number_at<std::uint16_t>(bytes_, place + 8) & 1u) != 0,
     };
     read_64_bits(entry, bytes_.substr(place + entry_size + name_size, extra_size));
-    entries_.emplace(in_lower_case(entry.name), entry);
+    entries_.emplace(text::in_small_letters(entry.name), entry);
     place += entry_size + name_size + extra_size + comment_size;
   }
 }
 
 const ZipEntry* ZipArchive::find(std::string_view name) const {
-  const auto found = entries_.find(in_lower_case(name));
+  const auto found = entries_.find(text::in_small_letters(name));
   return found == entries_.end() ? nullptr : &found->second;
 }
 
