@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "crt/error.hpp"
+#include "text/utf8.hpp"
 
 namespace crt::source {
 
@@ -16,25 +17,6 @@ bool begins_attribute(std::string_view text) {
   std::size_t end = 0;
   while (end < text.size() && std::isalnum(static_cast<unsigned char>(text[end])) != 0) ++end;
   return end > 0 && text.substr(end).starts_with(" -> ");
-}
-
-/// Returns how many bytes a character of UTF-8 has that begins with this one, or 0 (RFC 3629).
-std::size_t bytes_of_character(unsigned char first) {
-  if (first < 0x80) return 1;
-  if (first < 0xc2 || first > 0xf4) return 0;
-  return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-}
-
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t count = bytes_of_character(static_cast<unsigned char>(text[i]));
-    if (count == 0 || i + count > text.size()) return false;
-    for (std::size_t k = 1; k < count; ++k) {
-      if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return false;
-    }
-    i += count;
-  }
-  return true;
 }
 
 /// Says whether a bracket opens a vector or a colour of a script.
@@ -94,7 +76,7 @@ std::string Syntax::boolean(bool value) const {
 }
 
 std::string Syntax::text(const std::string& content) const {
-  if (is_script() && !is_utf8(content))
+  if (is_script() && !text::is_utf8(content))
     throw Error(ErrorCode::unsupported, "a text is not UTF-8, which scripts are written in");
   const std::size_t most_in_a_piece = is_script() ? std::string::npos : 72;
   std::string result = "\"";

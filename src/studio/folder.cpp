@@ -6,6 +6,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "text/utf8.hpp"
+
 namespace crt::studio {
 
 namespace fs = std::filesystem;
@@ -20,24 +22,6 @@ constexpr std::size_t most_looked_at = 20000;
 bool is_within(const fs::path& path, const fs::path& folder) {
   const auto ends = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   return ends.first == folder.end() && ends.second != path.end();
-}
-
-/// Says whether a text is UTF-8 as far as its lead and continuation bytes go.
-bool is_utf8(std::string_view text) {
-  int expected = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool continues = (byte & 0xc0U) == 0x80U;
-    if (continues != (expected > 0)) return false;
-    if (continues) {
-      --expected;
-    } else if (byte >= 0xf8U) {
-      return false;
-    } else {
-      expected = byte >= 0xf0U ? 3 : byte >= 0xe0U ? 2 : byte >= 0xc0U ? 1 : 0;
-    }
-  }
-  return expected == 0;
 }
 
 /// Reads at most so many bytes of a file as a script may have, and one more. Nothing if it fails.
@@ -137,7 +121,8 @@ std::string Folder::read(std::string_view name) const {
   if (!text) throw Error(ErrorCode::io, "'" + std::string(name) + "' cannot be read");
   if (text->size() > longest_script)
     throw Error(ErrorCode::limit, "'" + std::string(name) + "' is longer than 4 MiB");
-  if (!is_utf8(*text)) throw Error(ErrorCode::limit, "'" + std::string(name) + "' is not in UTF-8");
+  if (!text::is_utf8(*text))
+    throw Error(ErrorCode::limit, "'" + std::string(name) + "' is not in UTF-8");
   return std::move(*text);
 }
 
@@ -162,7 +147,7 @@ std::optional<TypedText> Folder::typed(
     std::string_view name, const std::function<bool(const TypedText&)>& is_wanted) const {
   for (TypedFile& file : typed_files_of(file_of(name))) {
     std::optional<std::string> text = read_some(file.path);
-    if (!text || text->size() > longest_script || !is_utf8(*text)) continue;
+    if (!text || text->size() > longest_script || !text::is_utf8(*text)) continue;
     TypedText typed{std::move(file.page), std::move(*text)};
     if (is_wanted(typed)) return typed;
   }
