@@ -39,6 +39,14 @@ std::unique_ptr<Response> respond(const Request& request, const Shared& shared, 
 
 }  // namespace
 
+Session::Session(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {
+  shared_->sessions.insert(this);
+}
+
+Session::~Session() {
+  shared_->sessions.erase(this);
+}
+
 void Outbox::send(SocketMessage message) {
   {
     const std::lock_guard lock(mutex_);

@@ -42,11 +42,21 @@ constexpr std::chrono::seconds response_timeout{120};
 /// A browser that does not take what it is sent is left.
 constexpr std::size_t most_waiting_bytes = std::size_t{256} << 20;
 
-/// Anything that lives as long as its connection, and can be ended.
+struct Shared;
+
+/// Anything that lives as long as its connection, and can be ended. It is listed meanwhile.
 class Session {
  public:
-  virtual ~Session() = default;
+  virtual ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
   virtual void end() = 0;
+
+ protected:
+  explicit Session(std::shared_ptr<Shared> shared);
+
+  const std::shared_ptr<Shared> shared_;
 };
 
 /// What sessions share. Only the server's thread touches it.
@@ -117,16 +127,10 @@ template <class Kind>
 class Socket : public Session, public std::enable_shared_from_this<Socket<Kind>> {
  public:
   Socket(typename Kind::Stream stream, std::shared_ptr<Shared> shared)
-      : stream_(std::move(stream)), shared_(std::move(shared)) {
-    shared_->sessions.insert(this);
+      : Session(std::move(shared)), stream_(std::move(stream)) {
     ++shared_->clients;
   }
-  ~Socket() override {
-    shared_->sessions.erase(this);
-    --shared_->clients;
-  }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
+  ~Socket() override { --shared_->clients; }
 
   void start(const Request& request) {
     stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
@@ -190,7 +194,6 @@ class Socket : public Session, public std::enable_shared_from_this<Socket<Kind>>
   }
 
   websocket::stream<typename Kind::Stream> stream_;
-  std::shared_ptr<Shared> shared_;
   beast::flat_buffer buffer_;
   std::deque<SocketMessage> waiting_;
   std::size_t waiting_bytes_ = 0;
@@ -207,16 +210,10 @@ template <class Kind>
 class Visit : public Session, public std::enable_shared_from_this<Visit<Kind>> {
  public:
   Visit(typename Kind::Stream stream, std::shared_ptr<Shared> shared)
-      : stream_(std::move(stream)), shared_(std::move(shared)) {
-    shared_->sessions.insert(this);
+      : Session(std::move(shared)), stream_(std::move(stream)) {
     shared_->visits.push_back(this);
   }
-  ~Visit() override {
-    shared_->sessions.erase(this);
-    shared_->visits.remove(this);
-  }
-  Visit(const Visit&) = delete;
-  Visit& operator=(const Visit&) = delete;
+  ~Visit() override { shared_->visits.remove(this); }
 
   void start() {
     lowest().expires_after(handshake_timeout);
@@ -263,7 +260,6 @@ class Visit : public Session, public std::enable_shared_from_this<Visit<Kind>> {
   }
 
   typename Kind::Stream stream_;
-  std::shared_ptr<Shared> shared_;
   beast::flat_buffer buffer_{longest_header};
   std::optional<http::request_parser<http::empty_body>> parser_;
 };
