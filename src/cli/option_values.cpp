@@ -11,6 +11,11 @@ namespace crt::cli {
 
 namespace {
 
+bool is_ipv6(const std::string& text) {
+  in6_addr address{};
+  return inet_pton(AF_INET6, text.c_str(), &address) == 1;
+}
+
 /// Returns a string as a script writes it.
 std::string script_string(std::string_view text) {
   std::string quoted = "\"";
@@ -194,8 +199,8 @@ tev::ViewerAddress parse_display(const std::string& text) {
 std::string parse_ip_address(const std::string& option, const std::string& text) {
   const bool has_brackets = text.starts_with('[') && text.ends_with(']');
   std::string plain = has_brackets ? text.substr(1, text.size() - 2) : text;
-  in6_addr address{};
-  if (inet_pton(AF_INET6, plain.c_str(), &address) == 1) return plain;
+  in_addr address{};
+  if (is_ipv6(plain)) return plain;
   if (!has_brackets && inet_pton(AF_INET, plain.c_str(), &address) == 1) return plain;
   throw WrongValue(option, "an IP address, such as 0.0.0.0 or ::1", text);
 }
@@ -204,12 +209,8 @@ std::string parse_host_name(const std::string& option, const std::string& text) 
   constexpr std::string_view allowed =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-.";
   if (!text.empty() && text.find_first_not_of(allowed) == std::string::npos) return text;
-  if (text.starts_with('[')) {
-    in6_addr address{};
-    if (inet_pton(AF_INET6, text.substr(1, text.size() - 2).c_str(), &address) == 1 &&
-        text.ends_with(']'))
-      return text;
-  }
+  if (text.starts_with('[') && text.ends_with(']') && is_ipv6(text.substr(1, text.size() - 2)))
+    return text;
   throw WrongValue(option, "the name of a machine, without a port", text);
 }
 

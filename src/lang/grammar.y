@@ -242,13 +242,13 @@ modifiers:
 
 /* The operand is an arithmetic expression, so that '>' always closes the list. */
 modifier:
-    "scale" arithmetic                     { $$ = {ModifierKind::scale, $2}; }
-  | "translate" arithmetic                     { $$ = {ModifierKind::translate, $2}; }
-  | "rotate" arithmetic                        { $$ = {ModifierKind::rotate, $2}; }
-  | "material" arithmetic                      { $$ = {ModifierKind::material, $2}; }
-  | "id" arithmetic                     { $$ = {ModifierKind::id, $2}; }
-  | "matrix" arithmetic                        { $$ = {ModifierKind::matrix, $2}; }
-  | IDENTIFIER arithmetic                      { tree.unknown_modifier(@1);
+    "scale" arithmetic                       { $$ = {ModifierKind::scale, $2}; }
+  | "translate" arithmetic                   { $$ = {ModifierKind::translate, $2}; }
+  | "rotate" arithmetic                      { $$ = {ModifierKind::rotate, $2}; }
+  | "material" arithmetic                    { $$ = {ModifierKind::material, $2}; }
+  | "id" arithmetic                          { $$ = {ModifierKind::id, $2}; }
+  | "matrix" arithmetic                      { $$ = {ModifierKind::matrix, $2}; }
+  | IDENTIFIER arithmetic                    { tree.unknown_modifier(@1);
                                                $$ = {ModifierKind::scale, $2}; }
 
 expressions_or_none:

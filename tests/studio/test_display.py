@@ -43,6 +43,11 @@ class Display(unittest.TestCase):
         with crt.Image.read(file) as image:
             return image.pixels.copy()
 
+    def start(self):
+        viewer = Viewer()
+        viewer.start()
+        return viewer, self.serve(viewer)
+
     def wait_for(self, viewer, pixels):
         end = time.monotonic() + SECONDS
         while not np.array_equal(viewer.pictures.get("a.crt"), pixels):
@@ -51,24 +56,18 @@ class Display(unittest.TestCase):
             time.sleep(0.02)
 
     def test_the_viewer_shows_each_whole_picture(self):
-        viewer = Viewer()
-        viewer.start()
-        client = self.serve(viewer)
+        viewer, client = self.start()
         for numbers in ((2, 1), (3, 0.5), (2, 1)):
             self.wait_for(viewer, self.show(client, *numbers))
 
     def test_it_shows_pictures_in_progress(self):
-        viewer = Viewer()
-        viewer.start()
-        client = self.serve(viewer)
+        viewer, client = self.start()
         pixels = self.show(client, 64, 1)
         self.wait_for(viewer, pixels)
         self.assertGreater(viewer.incomplete, 0)
 
     def test_what_shows_no_colours_is_not_sent(self):
-        viewer = Viewer()
-        viewer.start()
-        client = self.serve(viewer)
+        viewer, client = self.start()
         pixels = self.show(client, 2, 1)
         self.wait_for(viewer, pixels)
         updates = viewer.updates

@@ -2,7 +2,6 @@
 
 import {createDockview, themeDark, themeLight, type DockviewApi} from 'dockview-core';
 import {storage} from './storage';
-
 import {nameTabs} from './tabs';
 
 export interface PanelContent {
