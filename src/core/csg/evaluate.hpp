@@ -119,7 +119,7 @@ class CsgWorkspace {
 
 /// Returns a face of `leaf` that lies on the surface a ray starts on, as the leaf's own ray needs
 /// to know it. Returns none if there is no such face. The leaf has the number `index` in the scene.
-RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
+FaceStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
                        std::span<const FaceSurface> face_surfaces, const StartPoint& start);
 
 /// Returns a ray in the world as it is in the space of a leaf, with where it starts on that. The
@@ -146,7 +146,7 @@ bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectR
 /// the leaf's space.
 inline bool is_at_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                         const Crossing& crossing) {
-  const double distance = crossing.t - ray.t_min - crossing.error;
+  const double distance = distance_from_start(ray.t_min, crossing.t, crossing.error);
   if (distance > flattest_start * ray.start.t_error) return false;
   return distance <= ray.start.t_error || is_through_start(leaf, ray, object_ray, crossing);
 }
@@ -181,6 +181,10 @@ class CsgEvaluation {
 
   /// Returns whether the start of the ray (just after t_min) is inside the object.
   bool starts_inside() const { return starts_inside_; }
+
+  /// Returns the first leaf, as written, that holds the start of a ray which starts inside. It is
+  /// no cutter. To be asked for before next().
+  std::uint32_t first_leaf_inside() const;
 
   /// Finds the next crossing of the boundary with t < t_max. Returns false if there is none.
   bool next(CsgHit& hit);

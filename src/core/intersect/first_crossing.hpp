@@ -51,11 +51,11 @@ struct AfterStart {
 template <class Real>
 auto after_start(const FilterLine<Real>& line, const Real& t, const Real& error) {
   using Mask = decltype(t > line.begin);
-  const Real distance = t - line.begin - error;
+  const Real distance = distance_from_start(line.begin, t, error);
   const Mask after = t > line.begin;
   const Mask clear = distance > flattest_start * line.start_error;
   return AfterStart<Mask>{.surely = after && clear,
-                          .unknown = after && !clear && !(distance <= line.start_error)};
+                          .unknown = after && !clear && !(distance <= line.least_start_error)};
 }
 
 /// Returns the chord in a sphere that is not moved.

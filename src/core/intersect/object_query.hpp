@@ -20,6 +20,8 @@ namespace crt::core {
 ///     bool take(const RayHit& hit);
 ///     // says whether take() never asks for more than the first crossing
 ///     static constexpr bool takes_one;
+///     // says whether set_leaf() is called with the first leaf that holds the start
+///     static constexpr bool asks_for_leaf;
 ///
 /// It is a template, as it is asked for every object that a ray comes near.
 template <class Kind>
@@ -38,8 +40,9 @@ class ObjectQuery {
     ++work_->intersection_tests;
     const CompiledScene& scene = accelerator_->compiled();
     const SceneObject& object = scene.objects[object_index];
-    if (object.is_instance()) {
-      test_instance(object_index, object);
+    const double size_error = accelerator_->size_error(*ray_, object_index);
+    if (object.is_instance() || size_error > 0) {
+      test_moved(object_index, object, size_error);
     } else {
       test({scene, object, *ray_, object_index, 0, nullptr});
     }
@@ -54,10 +57,11 @@ class ObjectQuery {
   /// Returns whether a crossing is before the ray's end and not at it.
   bool is_before_end(const RayHit& hit) const {
     return hit.t < certain_end(*ray_) ||
-           (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit));
+           (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit, *work_));
   }
 
   bool begin(bool /*starts_inside*/) { return true; }
+  static constexpr bool asks_for_leaf = false;
 
  private:
   /// An ObjectInScene is an object to be tested, which may be that of a prototype.
@@ -85,7 +89,9 @@ class ObjectQuery {
   }
   void test_leaf(const ObjectInScene& tested);
   void test_csg(const ObjectInScene& tested);
-  void test_instance(std::uint32_t object_index, const SceneObject& object);
+  /// Tests an object that needs a ray of its own: an instance, or one that the ray may start on
+  /// with that error of its size.
+  void test_moved(std::uint32_t object_index, const SceneObject& object, double size_error);
 
   const Accelerator* accelerator_;
   const WorldRay* ray_;
@@ -118,6 +124,7 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
     inside = crossing.entering;
   }
   if (!kind().begin(inside && tested.object.solid)) return;
+  if constexpr (Kind::asks_for_leaf) kind().set_leaf(tested.first_leaf + index);
   for (; place < crossings.size() && crossings[place].t <= limit_; ++place) {
     const Crossing& crossing = crossings[place];
     const FaceSurface face = own.surface_of(crossing.face, tested.scene.face_surfaces);
@@ -143,6 +150,9 @@ void ObjectQuery<Kind>::test_csg(const ObjectInScene& tested) {
   CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg,
                            Kind::takes_one, tested.frame);
   if (!kind().begin(evaluation.starts_inside())) return;
+  if constexpr (Kind::asks_for_leaf) {
+    kind().set_leaf(tested.first_leaf + program.first_leaf + evaluation.first_leaf_inside());
+  }
   CsgHit found;
   while (evaluation.next(found)) {
     const RayHit hit{.t = found.t,
@@ -159,11 +169,15 @@ void ObjectQuery<Kind>::test_csg(const ObjectInScene& tested) {
 }
 
 template <class Kind>
-void ObjectQuery<Kind>::test_instance(std::uint32_t object_index, const SceneObject& object) {
+void ObjectQuery<Kind>::test_moved(std::uint32_t object_index, const SceneObject& object,
+                                   double size_error) {
   const CompiledScene& scene = accelerator_->compiled();
+  WorldRay ray = *ray_;
+  ray.start.t_error += size_error;
+  ray.max_size_error = 0;
+  if (!object.is_instance()) return test({scene, object, ray, object_index, 0, nullptr});
   const CompiledScene& prototype = scene.prototype_of(object);
   const InstanceFrame frame = scene.frame_of(object, work_->placements);
-  WorldRay ray = *ray_;
   ray.start = start_in_prototype(scene, object, ray.start);
   test({prototype, prototype.objects[0], ray, object_index, object.first_leaf, &frame});
 }
