@@ -76,8 +76,8 @@ std::vector<ConvexSolid> convex_solids() {
   const Field y = Field::y();
   const Field z = Field::z();
   const double quarter = std::tan(std::numbers::pi / 8);
-  const Contour lens{{0, 0, 0.4}, {0.9, 0.5, 0.3}, {0, 0.9}};
-  const Contour plate{{-0.8, -0.7}, {0.7, -0.8, 0.2}, {0.5, 0.8, quarter}, {-0.6, 0.6}};
+  const Contour lens{{0, -0.2}, {0.9, 0.3, 0.2}, {0, 0.9, 0.3}};
+  const Contour plate{{-0.8, -0.7}, {0.7, -0.8}, {0.5, 0.8, 0.2}, {-0.6, 0.6, quarter}};
   return {
       {"sphere", Sphere{.center = {0.3, -0.2, 0.4}, .radius = 0.9}},
       {"sphere about the origin", Sphere{}},

@@ -141,3 +141,56 @@ TEST_CASE("walks through plates that are turned and moved end, and miss none") {
     CHECK(met == 2 * plates);
   }
 }
+
+TEST_CASE("queries agree where t is among the smallest numbers") {
+  Numbers numbers(31);
+  const std::vector<double> ends = {5e-324, 1e-320, 2.2e-308, 1e-300, 0.0, 1e-200};
+  RayQueries queries(prepare({.entities = {Sphere{}, Box{{1, -1, -1}, {2, 1, 1}}}}));
+  for (int i = 0; i < 3000; ++i) {
+    const auto end = [&] { return ends[static_cast<std::size_t>(numbers.below(6))]; };
+    const double length = std::pow(10, numbers.within(-300, 300));
+    Ray ray{.origin = numbers.direction(), .direction = length * numbers.direction()};
+    if (i % 3 == 0) ray.origin = {1, numbers.within(-1, 1), 0};
+    ray.t_max = end();
+    ray.t_min = i % 2 == 0 ? -end() : -infinity;
+    if (i % 5 == 0) std::swap(ray.t_min, ray.t_max);
+    std::vector<Hit> all;
+    queries.crossings(ray, all);
+    const std::optional<Hit> hit = queries.intersect(ray);
+    const FullHit full = queries.trace(ray);
+    CHECK(queries.occluded(ray) == !all.empty());
+    REQUIRE(hit.has_value() == !all.empty());
+    REQUIRE(full.found() == !all.empty());
+    for (const Hit& crossing : all) CHECK((crossing.t > ray.t_min && crossing.t < ray.t_max));
+    if (hit) CHECK((hit->t == all[0].t && full.t == all[0].t));
+  }
+}
+
+TEST_CASE("of solids that touch, the nearest hit is the first of the crossings") {
+  for (const bool turned_round : {false, true}) {
+    std::vector<Entity> boxes = {Box{{0, 0, 0}, {1, 1, 1}}, Box{{1, 0, 0}, {2, 1, 1}}};
+    if (turned_round) std::swap(boxes[0], boxes[1]);
+    for (const Precision precision : {Precision::standard, Precision::exact}) {
+      Scene scene{.entities = boxes};
+      scene.settings.precision = precision;
+      RayQueries queries(prepare(scene));
+      // From within one of them, where both are crossed at one place.
+      const Ray ray{.origin = {0.5, 0.3, 0.4}, .direction = {1, 0.1, 0.05}};
+      std::vector<Hit> all;
+      queries.crossings(ray, all);
+      REQUIRE(all.size() == 3);
+      CHECK(all[0].t == all[1].t);
+      CHECK_FALSE(all[0].entering);
+      CHECK(all[1].entering);
+      const std::optional<Hit> hit = queries.intersect(ray);
+      REQUIRE(hit);
+      CHECK(hit->entity_id == all[0].entity_id);
+      CHECK(hit->t == all[0].t);
+      CHECK(queries.trace(ray).entity_id == all[0].entity_id);
+      double t = 0;
+      std::uint32_t id = 9;
+      queries.distances(std::span(&ray, 1), std::span(&t, 1), std::span(&id, 1));
+      CHECK(id == all[0].entity_id);
+    }
+  }
+}

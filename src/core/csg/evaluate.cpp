@@ -195,7 +195,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
     // Only fields have more roots. Leaves that share one cross it at the same t, to the bit.
     met.shared = crossing.root < most_roots ? surface.shared : FaceSurface::not_shared;
     if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= farthest_start(ray_) &&
-        is_at_start(in_place, ray_, object_ray_, crossing)) {
+        is_at_start(in_place, ray_, ray_.start.t_error, object_ray_, crossing)) {
       met.t = ray_.t_min;
       met.t_low = 0;
       met.moved = true;

@@ -62,12 +62,12 @@ ExactRay exact_ray(const Placement& placement, const WorldRay& ray, const Object
   return exact;
 }
 
-bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                      const Crossing& crossing) {
+bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, double start_error,
+                      const ObjectRay& object_ray, const Crossing& crossing) {
   const SurfacePoint point = leaf.leaf.shape->surface_point(object_ray, crossing, false);
   const Vec3 normal = leaf.placement.normal_to_world(point.normal);
-  const double distance = distance_from_start(ray.t_min, crossing.t, crossing.error);
-  return distance * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
+  const double distance = crossing.t - ray.t_min - crossing.error;
+  return distance * std::abs(glm::dot(normal, ray.direction)) <= start_error;
 }
 
 }  // namespace crt::core

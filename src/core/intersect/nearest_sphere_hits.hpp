@@ -91,8 +91,9 @@ class NearestSphereHits {
     const Lanes start_error = rays.start_errors[group] + rays.max_size_error;
     const Lanes& end = rays.t_max[group];
     const Lanes sure_end = certain_end(end, rays.end_errors[group], rays.max_size_error);
-    return (distance_from_start(rays.t_min[group], t, error) > flattest_start * start_error) &
-           ((t < sure_end) | (t >= end));
+    const Lanes distance = t - rays.t_min[group];
+    return (distance - error > flattest_start * start_error) &
+           (distance > errors_at_start * error) & ((t < sure_end) | (t >= end));
   }
 
   void find(const NearestSpheres& nearest, const RayBatch& rays, std::size_t group, RayMask meeting,

@@ -40,11 +40,10 @@ class ObjectQuery {
     ++work_->intersection_tests;
     const CompiledScene& scene = accelerator_->compiled();
     const SceneObject& object = scene.objects[object_index];
-    const double size_error = accelerator_->size_error(*ray_, object_index);
-    if (object.is_instance() || size_error > 0) {
-      test_moved(object_index, object, size_error);
+    if (object.is_instance()) {
+      test_instance(object_index, object);
     } else {
-      test({scene, object, *ray_, object_index, 0, nullptr});
+      test({scene, object, *ray_, start_error(object_index), object_index, 0, nullptr});
     }
   }
   /// Takes the crossing of a CSG object that its interval filter has found. Returns whether there
@@ -69,6 +68,7 @@ class ObjectQuery {
     const CompiledScene& scene;
     const SceneObject& object;
     const WorldRay& ray;         ///< with a start on leaves and surfaces of that scene
+    double start_error;          ///< StartPoint::t_error with what the object's size adds
     std::uint32_t number;        ///< of the object that hits name
     std::uint32_t first_leaf;    ///< is added to the number of a leaf
     const InstanceFrame* frame;  ///< of an instance
@@ -89,9 +89,10 @@ class ObjectQuery {
   }
   void test_leaf(const ObjectInScene& tested);
   void test_csg(const ObjectInScene& tested);
-  /// Tests an object that needs a ray of its own: an instance, or one that the ray may start on
-  /// with that error of its size.
-  void test_moved(std::uint32_t object_index, const SceneObject& object, double size_error);
+  void test_instance(std::uint32_t object_index, const SceneObject& object);
+  double start_error(std::uint32_t object_index) const {
+    return ray_->start.t_error + accelerator_->size_error(*ray_, object_index);
+  }
 
   const Accelerator* accelerator_;
   const WorldRay* ray_;
@@ -110,7 +111,8 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
   CrossingList& crossings = work_->crossings;
   crossings.clear();
   object_ray.begin = ray.t_min;
-  if (Kind::takes_one) object_ray.first_above = asked_above(farthest_start(ray));
+  if (Kind::takes_one)
+    object_ray.first_above = asked_above(farthest_start(ray.t_min, tested.start_error));
   bool inside = leaf_crossings(leaf, ray, object_ray, crossings, work_->leaf_escalations);
   // Another object's surface may coincide with the one that the ray starts on: then it is at the
   // start as well.
@@ -118,7 +120,8 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
   std::size_t place = 0;
   for (; place < crossings.size(); ++place) {
     const Crossing& crossing = crossings[place];
-    if (crossing.t > ray.t_min && (starts_here || !is_at_start(leaf, ray, object_ray, crossing))) {
+    if (crossing.t > ray.t_min &&
+        (starts_here || !is_at_start(leaf, ray, tested.start_error, object_ray, crossing))) {
       break;
     }
     inside = crossing.entering;
@@ -147,6 +150,8 @@ void ObjectQuery<Kind>::test_csg(const ObjectInScene& tested) {
   const CsgProgram& program = scene.programs[tested.object.program];
   WorldRay csg_ray = tested.ray;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
+  csg_ray.start.t_error = tested.start_error;
+  csg_ray.max_size_error = 0;
   CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg,
                            Kind::takes_one, tested.frame);
   if (!kind().begin(evaluation.starts_inside())) return;
@@ -169,17 +174,14 @@ void ObjectQuery<Kind>::test_csg(const ObjectInScene& tested) {
 }
 
 template <class Kind>
-void ObjectQuery<Kind>::test_moved(std::uint32_t object_index, const SceneObject& object,
-                                   double size_error) {
+void ObjectQuery<Kind>::test_instance(std::uint32_t object_index, const SceneObject& object) {
   const CompiledScene& scene = accelerator_->compiled();
-  WorldRay ray = *ray_;
-  ray.start.t_error += size_error;
-  ray.max_size_error = 0;
-  if (!object.is_instance()) return test({scene, object, ray, object_index, 0, nullptr});
   const CompiledScene& prototype = scene.prototype_of(object);
   const InstanceFrame frame = scene.frame_of(object, work_->placements);
+  WorldRay ray = *ray_;
   ray.start = start_in_prototype(scene, object, ray.start);
-  test({prototype, prototype.objects[0], ray, object_index, object.first_leaf, &frame});
+  test({prototype, prototype.objects[0], ray, start_error(object_index), object_index,
+        object.first_leaf, &frame});
 }
 
 template <class Kind>

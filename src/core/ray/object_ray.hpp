@@ -30,14 +30,9 @@ struct FaceStart {
   double t_error = 0;
 };
 
-/// Returns how far a crossing surely is from where a ray begins, but for the ray's start_error. The
-/// start may be a crossing that was computed, with an error like this one's, and so may be what
-/// follows: twice the error lies between them.
-template <class Real>
-Real distance_from_start(const Real& begin, const Real& t, const Real& error) {
-  constexpr double errors_between = 3;
-  return t - begin - errors_between * error;
-}
+/// The start of a ray may be a crossing that was computed, with an error like that of the crossing
+/// which is compared with it. So twice the error may lie between them, and this is more.
+inline constexpr double errors_at_start = 3;
 
 /// Computes ObjectRay::from_center() for a ray or for lanes.
 template <class Real, class Ray>
@@ -78,7 +73,7 @@ struct ObjectRay {
   /// the start.
   template <class Crossing>
   bool is_first_asked(const Crossing& crossing) const {
-    return distance_from_start(first_above, crossing.t, crossing.error) > 0;
+    return crossing.t - errors_at_start * crossing.error > first_above;
   }
 
   /// Returns the point at t + t_low relative to `center`. Subtracting the center early keeps

@@ -174,7 +174,7 @@ class ExactFrustumShape final : public ExactShape {
       if (!is_inside || !*is_inside) return is_inside;
     }
     const auto first = *at_enter < 0 ? enter.crossing() : side.root(true, enter, leave);
-    if (first && distance_from_start(first_above, first->t, first->error) > 0) {
+    if (first && first->t - errors_at_start * first->error > first_above) {
       piece.enter = *first;
       return true;
     }
