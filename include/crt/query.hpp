@@ -7,7 +7,7 @@
 // All queries treat a surface at the start of a ray alike. With Precision::standard it counts as
 // behind the ray if it is within 32 u times the sum of the start's largest coordinate and the
 // object's size, measured across the surface (u = 2^-53; the size is half of the longest side of the
-// box around it), or within three times the error of its t if that is more. At the end, t_max, the
+// box around it), or within twice the error bound of its t if that is more. At the end, t_max, the
 // same holds of what is before the ray's end. So a ray from a point that was computed to be on a
 // surface, as origin + t * direction, does not meet that surface there again, nor does one to such a
 // point. What is nearer than that is not seen. What is behind the start is never reported as ahead

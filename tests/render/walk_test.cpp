@@ -89,9 +89,8 @@ Scene scene_of(std::vector<Entity> entities, Precision precision) {
 Entity bumpy(Numbers& numbers) {
   std::vector<double> heights(49);
   for (double& height : heights) height = numbers.within(0, 1);
-  return HeightField{.heights = make_height_grid(heights, 7, 7),
-                     .corner_a = {-2, -1, -2},
-                     .corner_b = {2, 1, 2}};
+  return HeightField{
+      .heights = make_height_grid(heights, 7, 7), .corner_a = {-2, -1, -2}, .corner_b = {2, 1, 2}};
 }
 
 }  // namespace
@@ -113,11 +112,11 @@ TEST_CASE("a walk by starts meets each place that crossings have: trees whose fa
 TEST_CASE("a walk by starts meets each place that crossings have: all kinds of solids") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     Numbers numbers(13);
-    std::vector<Entity> entities = {
-        bumpy(numbers), Entity(Torus{}).transformed(rotate(numbers.point(90))),
-        // Two that share a face with others.
-        Box{.corner_a = {1, -1, -1}, .corner_b = {2, 1, 1}},
-        Box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}}};
+    std::vector<Entity> entities = {bumpy(numbers),
+                                    Entity(Torus{}).transformed(rotate(numbers.point(90))),
+                                    // Two that share a face with others.
+                                    Box{.corner_a = {1, -1, -1}, .corner_b = {2, 1, 1}},
+                                    Box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}}};
     for (const ConvexSolid& solid : convex_solids()) {
       if (solid.is_closed)
         entities.push_back(solid.entity.transformed(translate(numbers.point(1))));
@@ -134,7 +133,8 @@ TEST_CASE("a walk by starts meets each place that crossings have: all kinds of s
 TEST_CASE("a walk by starts meets each place that crossings have: instances") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     Numbers numbers(14);
-    const Entity die = (Entity(Box{}) - Entity(Sphere{.radius = 1.3})) + Entity(Sphere{.radius = 0.4});
+    const Entity die =
+        (Entity(Box{}) - Entity(Sphere{.radius = 1.3})) + Entity(Sphere{.radius = 0.4});
     std::vector<Entity> entities;
     for (int i = 0; i < 40; ++i) {
       entities.push_back(
@@ -222,10 +222,9 @@ TEST_CASE("what lies between is found, also on the surface of the end") {
     CHECK(between(top, box));
     CHECK(between(box, top));
     // From outside to the far side of the ball, whose near side is in between.
-    CHECK(queries.blocked({.origin = {0.1, 5, 0.2},
-                           .direction = bottom.position - Vec3(0.1, 5, 0.2),
-                           .t_max = 1},
-                          {}, bottom.start));
+    CHECK(queries.blocked(
+        {.origin = {0.1, 5, 0.2}, .direction = bottom.position - Vec3(0.1, 5, 0.2), .t_max = 1}, {},
+        bottom.start));
   }
 }
 
@@ -268,9 +267,10 @@ TEST_CASE("many rays with starts get what each of them gets alone") {
 
 TEST_CASE("a full hit has what the other queries have") {
   Numbers numbers(18);
-  const Entity part = (Entity(Box{}).with_id(7) - Entity(Sphere{.radius = 1.2}).with_id(8))
-                          .with_user(5);
-  const PreparedScene prepared = prepare(scene_of({part.with_id(3), Entity(Sphere{}).with_user(9)}, Precision::standard));
+  const Entity part =
+      (Entity(Box{}).with_id(7) - Entity(Sphere{.radius = 1.2}).with_id(8)).with_user(5);
+  const PreparedScene prepared =
+      prepare(scene_of({part.with_id(3), Entity(Sphere{}).with_user(9)}, Precision::standard));
   RayQueries queries(prepared);
   int met = 0;
   for (int i = 0; i < 300; ++i) {
@@ -323,10 +323,9 @@ TEST_CASE("a start of another scene is refused, whatever is in it") {
 }
 
 TEST_CASE("points are located in the innermost solid, by part and user number") {
-  const Entity nut = (Entity(Cylinder{.from = {0, -1, 0}, .to = {0, 1, 0}, .radius = 2})
-                          .with_id(21)
-                          .with_user(4) -
-                      Entity(Cylinder{.from = {0, -2, 0}, .to = {0, 2, 0}, .radius = 1}).with_id(22));
+  const Entity nut =
+      (Entity(Cylinder{.from = {0, -1, 0}, .to = {0, 1, 0}, .radius = 2}).with_id(21).with_user(4) -
+       Entity(Cylinder{.from = {0, -2, 0}, .to = {0, 2, 0}, .radius = 1}).with_id(22));
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     RayQueries queries(prepare(scene_of(
         {Entity(Sphere{.radius = 10}).with_user(1), nut.with_id(2),

@@ -31,8 +31,8 @@ struct FaceStart {
 };
 
 /// The start of a ray may be a crossing that was computed, with an error like that of the crossing
-/// which is compared with it. So twice the error may lie between them, and this is more.
-inline constexpr double errors_at_start = 3;
+/// which is compared with it. So twice the error may lie between them.
+inline constexpr double errors_at_start = 2;
 
 /// Computes ObjectRay::from_center() for a ray or for lanes.
 template <class Real, class Ray>
