@@ -10,7 +10,7 @@ enum { columns = 72, rows = 28, ray_count = columns * rows };
 // place: it gets the number of bytes from one letter to the next.
 typedef struct letter {
   crt_ray view;
-  crt_hit hit;
+  crt_full_hit hit;
   crt_ray to_light;
   int row, column;
 } letter;
@@ -59,17 +59,14 @@ static void aim(letter* letters) {
   }
 }
 
-// Makes a ray from each hit to the light. It begins a little off the surface, so as not to meet
-// that.
+// Makes a ray from each hit to the light. The hit says on which surface that begins.
 static void aim_at_light(letter* letters) {
-  const double gap = 1e-6;
   for (int i = 0; i < ray_count; ++i) {
     const letter* l = &letters[i];
-    const double t = l->hit.t < INFINITY ? l->hit.t : 0;
-    letters[i].to_light.t_min = gap;
+    letters[i].to_light.t_min = 0;
     letters[i].to_light.t_max = INFINITY;
     for (int k = 0; k < 3; ++k) {
-      letters[i].to_light.origin[k] = l->view.origin[k] + t * l->view.direction[k];
+      letters[i].to_light.origin[k] = l->hit.position[k];
       letters[i].to_light.direction[k] = light[k];
     }
   }
@@ -105,11 +102,12 @@ int main(void) {
   static uint8_t shadowed[ray_count];
   crt_prepared* prepared = NULL;
   aim(letters);
-  int failed = make_scene(&prepared) || crt_intersect(prepared, &letters->view, sizeof *letters,
-                                                      ray_count, &letters->hit, sizeof *letters);
+  int failed = make_scene(&prepared) || crt_trace(prepared, &letters->view, sizeof *letters, NULL, 0,
+                                                  ray_count, &letters->hit, sizeof *letters);
   if (!failed) {
     aim_at_light(letters);
-    failed = crt_occluded(prepared, &letters->to_light, sizeof *letters, ray_count, shadowed);
+    failed = crt_blocked(prepared, &letters->to_light, sizeof *letters, &letters->hit.start, NULL,
+                         sizeof *letters, ray_count, shadowed);
   }
   if (!failed) {
     draw(letters, shadowed);

@@ -816,6 +816,12 @@ CRT_API crt_status crt_entity_with_material(crt_entity* entity, const crt_materi
  */
 CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entity** out);
 
+/**
+ * Makes the entity with a number of yours for all its parts that have none, such as a pointer or a
+ * key. crt_full_hit and crt_locate() report it. The innermost one holds. Since 1.1.
+ */
+CRT_API crt_status crt_entity_with_user(crt_entity* entity, uint64_t user, crt_entity** out);
+
 /** Returns 1 if the entity has an inside, and 0 if a part of it is a mere surface or it is NULL. */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
 /**
@@ -1434,15 +1440,20 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * pictures see. Many rays at once are split among the threads of the calling TBB arena. Threads:
  * Shared.
  *
- * All four queries treat a surface at the start of a ray alike. With CRT_PRECISION_STANDARD it
- * counts as behind the ray unless it is ahead of t_min by more than the rounding error there. For a
- * lone primitive that error is at most 32 u times the sum of its size and the largest coordinate of
- * the start (u = 2^-53). It is measured across the surface; along a ray at a grazing angle the
- * distance is correspondingly longer. So a ray from a point that was computed to be on a surface
- * does not meet that surface there again, and what is nearer than that is not seen. What is behind
- * the start is never reported as ahead of it. With CRT_PRECISION_EXACT the origin is taken for the
- * point that its doubles say. A surface is met exactly if t_min < t holds for the exact t, rounded
- * to a double. So a ray from a point which rounding has put just below a surface meets it at once.
+ * All queries treat a surface at the start of a ray alike. With CRT_PRECISION_STANDARD it counts as
+ * behind the ray if it is within 32 u times the sum of the start's largest coordinate and the
+ * object's size, measured across the surface (u = 2^-53; the size is half of the longest side of
+ * the box around it), or within twice the error bound of its t if that is more. At the end, t_max,
+ * the same holds of what is before the ray's end. So a ray from a point that was computed to be on a
+ * surface, as origin + t * direction, does not meet that surface there again, nor does one to such
+ * a point. What is nearer than that is not seen. What is behind the start is never reported as
+ * ahead of it. The point must not come from much farther away than the size and the coordinates
+ * are, as then it is off by more, and the ray must be at an angle of more than 2^-24 with the
+ * surface. A ray with a crt_start knows where it begins and needs none of this.
+ *
+ * With CRT_PRECISION_EXACT the origin is taken for the point that its doubles say. A surface is met
+ * exactly if t_min < t holds for the exact t, rounded to a double. So a ray from a point which
+ * rounding has put just below a surface meets it at once, unless it has a crt_start.
  *
  * Strides are in bytes, so that rays and hits may lie inside larger structs of yours. 0 means one
  * after the other. Any alignment will do, and hits may take the place of their own rays.
@@ -1550,6 +1561,85 @@ typedef struct crt_hit_part {
  */
 CRT_API crt_status crt_hit_parts(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
                                  size_t count, crt_hit_part* parts, size_t part_stride);
+
+/**
+ * Says on which surface a ray begins or ends. Every crt_full_hit has one. It is good for queries of
+ * the crt_prepared that the hit is from, and nobody else knows what is in it. All 0 is nowhere. The
+ * layout is fixed for ever: 16 bytes. Since 1.1.
+ */
+typedef struct crt_start {
+  uint64_t bits[2];
+} crt_start;
+
+/**
+ * A full hit is all that is known of where a ray meets a surface. A miss has t = INFINITY,
+ * UINT32_MAX for the three ids, and 0 elsewhere. The layout is fixed for ever: 112 bytes. Since 1.1.
+ */
+typedef struct crt_full_hit {
+  double t;           /**< in units of |direction| */
+  double position[3]; /**< on the surface, with less error than origin + t * direction */
+  double normal[3];   /**< as in crt_hit */
+  double u, v;        /**< as in crt_hit */
+  uint32_t entity_id; /**< as in crt_hit_part, like the next two */
+  uint32_t part_id;
+  uint32_t face;
+  uint32_t flags;  /**< CRT_HIT_* */
+  uint64_t user;   /**< of the innermost crt_entity_with_user() around what was hit, or 0 */
+  crt_start start; /**< for rays that go on from here */
+} crt_full_hit;
+
+/**
+ * Finds the nearest hit of each ray, with all that is known of it. A ray with a start begins on the
+ * surface of that hit, whatever its coordinates say. It never meets that surface there again, nor
+ * others that coincide with it there, and it goes to the side that its direction says. So a walk
+ * ends, in both tiers, and meets each place that crt_crossings() lists. With t_min = 0 the surface
+ * is at the ray's origin: give the position of the hit. A ray that goes on along its own line may
+ * also keep its origin and begin at t_min = t of the hit. If any ray is invalid, or a start is not
+ * of this scene as far as can be told, no ray is traced, and the message names its index. Since
+ * 1.1.
+ * @param starts        as many as rays, or NULL; they may lie in `hits`, each in its own ray's hit
+ * @param start_stride  bytes from one to the next; 0 means one after the other
+ */
+CRT_API crt_status crt_trace(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                             const crt_start* starts, size_t start_stride, size_t count,
+                             crt_full_hit* hits, size_t hit_stride);
+/**
+ * Writes for each ray 1 if anything lies between its start and its end, else 0, into `count` bytes.
+ * A ray that has an end ends at t_max on the surface of that hit, which does not block it there.
+ * Errors are as for crt_trace(). Since 1.1.
+ * @param starts        as many as rays, or NULL
+ * @param ends          as many as rays, or NULL
+ * @param start_stride  bytes from one start to the next, and from one end to the next
+ */
+CRT_API crt_status crt_blocked(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                               const crt_start* starts, const crt_start* ends, size_t start_stride,
+                               size_t count, uint8_t* blocked);
+/**
+ * Finds every crossing of each ray in order, as crt_crossings() does, with all that is known of it.
+ * Those of ray i are hits[first[i]] ... hits[first[i + 1] - 1]. Errors are as for crt_trace(). If
+ * `capacity` is too small, it returns CRT_ERROR_LIMIT and writes no hits, but first[count] is how
+ * many there are. Since 1.1.
+ * @param starts  as many as rays, or NULL
+ * @param hits    an array of `capacity` hits; NULL if that is 0
+ * @param first   gets `count` + 1 numbers
+ */
+CRT_API crt_status crt_trace_all(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                                 const crt_start* starts, size_t start_stride, size_t count,
+                                 crt_full_hit* hits, size_t capacity, size_t* first);
+/**
+ * Finds in what each of several points is: in the innermost solid around it, as pictures order
+ * media. Of solids that overlap without one being in the other that is the one which a ray along
+ * (0.739, 0.567, 0.363) leaves first. What is exactly on a surface is on the side to which that
+ * points. If a point is not finite, nothing is written, and the message names its index. Since 1.1.
+ * @param points      each 3 numbers
+ * @param stride      bytes from one point to the next; 0 means one after the other
+ * @param entity_ids  gets `count` numbers; UINT32_MAX for a point in no solid
+ * @param part_ids    gets as many, of the first part as written that holds the point; may be NULL
+ * @param users       gets as many, of crt_entity_with_user(), or 0; may be NULL
+ */
+CRT_API crt_status crt_locate(crt_prepared* prepared, const double* points, size_t stride,
+                              size_t count, uint32_t* entity_ids, uint32_t* part_ids,
+                              uint64_t* users);
 
 /**
  * Computes the rays through places of the picture and the middle of the camera's lens, for programs

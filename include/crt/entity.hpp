@@ -53,6 +53,11 @@ class Entity {
   /// the innermost for the part that it was given to (see HitPart).
   Entity with_id(std::uint32_t id) const;
 
+  /// Returns this entity with a number of the caller's choice for all its parts that have none,
+  /// such as a pointer or a key. FullHit and Location report it, and 0 for parts without one. The
+  /// innermost one holds. Scripts cannot say it.
+  Entity with_user(std::uint64_t user) const;
+
   /// Says whether it has an inside. It has none if any part of it is a mere surface (Disc,
   /// Triangle, HalfPlane, or a Mesh that is open).
   bool is_solid() const;

@@ -5,14 +5,19 @@
 // RenderOptions::max_ray_steps), out_of_memory.
 //
 // All queries treat a surface at the start of a ray alike. With Precision::standard it counts as
-// behind the ray unless it is ahead of t_min by more than the rounding error there. For a lone
-// primitive that error is at most 32 u times the sum of its size and the largest coordinate of the
-// start (u = 2^-53). It is measured across the surface; along a ray at a grazing angle the distance
-// is correspondingly longer. So a ray from a point that was computed to be on a surface does not
-// meet that surface there again, and what is nearer than that is not seen. What is behind the start
-// is never reported as ahead of it. With Precision::exact the origin is taken for the point that
-// its doubles say. A surface is met exactly if t_min < t holds for the exact t, rounded to a
-// double. So a ray from a point which rounding has put just below a surface meets it at once.
+// behind the ray if it is within 32 u times the sum of the start's largest coordinate and the
+// object's size, measured across the surface (u = 2^-53; the size is half of the longest side of the
+// box around it), or within twice the error bound of its t if that is more. At the end, t_max, the
+// same holds of what is before the ray's end. So a ray from a point that was computed to be on a
+// surface, as origin + t * direction, does not meet that surface there again, nor does one to such a
+// point. What is nearer than that is not seen. What is behind the start is never reported as ahead
+// of it. The point must not come from much farther away than the size and the coordinates are, as
+// then it is off by more, and the ray must be at an angle of more than 2^-24 with the surface. A ray
+// with a RayStart knows where it begins and needs none of this.
+//
+// With Precision::exact the origin is taken for the point that its doubles say. A surface is met
+// exactly if t_min < t holds for the exact t, rounded to a double. So a ray from a point which
+// rounding has put just below a surface meets it at once, unless it has a RayStart.
 #pragma once
 
 #include <array>
@@ -79,6 +84,41 @@ struct HitPart {
   double v = 0;
 };
 
+/// A RayStart says on which surface a ray begins, or ends. Every FullHit has one, which is good for
+/// the prepared scene of the hit alone. What is in it is nobody's business. One of zeros is
+/// nowhere.
+struct RayStart {
+  std::array<std::uint64_t, 2> bits{};
+
+  friend bool operator==(const RayStart&, const RayStart&) = default;
+};
+
+/// A FullHit is all that is known of a hit: 112 bytes. A ray that hits nothing has an infinite t,
+/// no_entity_id for entity, part and face, and 0 elsewhere.
+struct FullHit {
+  double t = std::numeric_limits<double>::infinity();  ///< in units of |direction|
+  Vec3 position{0, 0, 0};  ///< on the surface, with less error than origin + t * direction
+  Vec3 normal{0, 0, 0};    ///< as in Hit
+  double u = 0;
+  double v = 0;
+  std::uint32_t entity_id = no_entity_id;  ///< as in HitPart, like the next two
+  std::uint32_t part_id = no_entity_id;
+  std::uint32_t face = no_entity_id;
+  HitSide side = HitSide::none;
+  std::uint64_t user = 0;  ///< of Entity::with_user() innermost around what was hit, or 0
+  RayStart start{};        ///< for rays that go on from here
+
+  bool found() const { return side != HitSide::none; }
+};
+
+/// A Location says in what a point is: the innermost solid, by the numbers that a FullHit has. The
+/// part is the first, as written, that holds the point. In free space there is none.
+struct Location {
+  std::uint32_t entity_id = no_entity_id;
+  std::uint32_t part_id = no_entity_id;
+  std::uint64_t user = 0;
+};
+
 /// Returns the ray through a place of the picture and the middle of the camera's lens, as the
 /// scene's settings have the picture. x and y count pixels from the left and from the top: (0.5,
 /// 0.5) is the middle of the first pixel. Places beside the picture are legal. The direction has
@@ -89,6 +129,9 @@ Ray camera_ray(const PreparedScene& scene, double x, double y);
 /// Throws Error (invalid_argument) as camera_ray(), and where there are fewer rays than places.
 void camera_rays(const PreparedScene& scene, std::span<const std::array<double, 2>> places,
                  std::span<Ray> rays);
+
+/// Finds the nearest hit, as RayQueries::trace() does.
+FullHit trace(const PreparedScene& scene, const Ray& ray, const RayStart& start = {});
 
 /// Finds the nearest hit. It is empty if the ray hits nothing.
 std::optional<Hit> intersect(const PreparedScene& scene, const Ray& ray);
@@ -105,6 +148,10 @@ void validate(const Ray& ray);
 /// Returns the index of the first of several rays that validate() rejects, or their number if there
 /// is none.
 std::size_t first_invalid(std::span<const Ray> rays);
+
+/// Returns the index of the first of several starts that is not of a hit in this scene, as far as
+/// that can be told, or their number if there is none.
+std::size_t first_invalid(const PreparedScene& scene, std::span<const RayStart> starts);
 
 /// A RayQueries object answers many rays one after the other, with memory that it keeps between
 /// them. That is cheaper than the functions above. One thread at a time may use it.
@@ -145,6 +192,34 @@ class RayQueries {
 
   /// Finds every crossing in order, and replaces what `out` holds.
   void crossings(const Ray& ray, std::vector<Hit>& out);
+
+  /// Finds the nearest hit with all that is known of it. A ray with a start begins on the surface
+  /// of that hit, whatever its coordinates say: it never meets that surface there again, nor others
+  /// that coincide with it there. It goes to the side that its direction says. With t_min = 0 the
+  /// surface is at the ray's origin. A ray that goes on along its own line may also keep its origin
+  /// and begin at t_min = t of the hit. Throws Error (invalid_argument) for a start of another
+  /// scene, as far as that can be told, also below.
+  FullHit trace(const Ray& ray, const RayStart& start = {});
+  /// Finds the nearest hits of several rays. There are as many starts as rays, or none.
+  void trace(std::span<const Ray> rays, std::span<const RayStart> starts, std::span<FullHit> hits);
+
+  /// Asks whether anything lies between the start of a ray and its end, as occluded() does. A ray
+  /// with an `end` ends at t_max on the surface of that hit, which does not block it there.
+  bool blocked(const Ray& ray, const RayStart& start, const RayStart& end = {});
+  /// Asks it of several rays. There are as many starts as rays, or none, and so with the ends.
+  void blocked(std::span<const Ray> rays, std::span<const RayStart> starts,
+               std::span<const RayStart> ends, std::span<bool> blocked);
+
+  /// Finds every crossing in order, with all that is known of it, and appends them to `out`. The
+  /// start is as for trace().
+  void trace_all(const Ray& ray, const RayStart& start, std::vector<FullHit>& out);
+
+  /// Finds in what points are: each in the innermost of the solids around it. Of solids that
+  /// overlap without one being in the other, the innermost is the one that a ray along (0.739,
+  /// 0.567, 0.363) leaves first. What is exactly on a surface is on the side to which that points.
+  /// Points must be finite. Throws Error (invalid_argument), also where there are fewer places than
+  /// points.
+  void locate(std::span<const Vec3> points, std::span<Location> locations);
 
  private:
   class State;

@@ -48,7 +48,20 @@ from .primitives import (
     Triangle,
 )
 from .profiles import svg_path, text_contours
-from .rays import BACKFACE, ENTERING, HIT, HIT_PART, NO_ENTITY, RAY, camera_rays, ray, rays
+from .rays import (
+    BACKFACE,
+    ENTERING,
+    FULL_HIT,
+    HIT,
+    HIT_PART,
+    LOCATION,
+    NO_ENTITY,
+    RAY,
+    START,
+    camera_rays,
+    ray,
+    rays,
+)
 from .rendering import Prepared
 from .scenes import Scene
 from .values import (
@@ -96,6 +109,7 @@ __all__ = [
     "Error",
     "Expression",
     "Extrusion",
+    "FULL_HIT",
     "FalloffModel",
     "HIT",
     "HIT_PART",
@@ -107,6 +121,7 @@ __all__ = [
     "Job",
     "Light",
     "LightType",
+    "LOCATION",
     "Live",
     "Material",
     "Mesh",
@@ -123,6 +138,7 @@ __all__ = [
     "RenderStats",
     "Quadric",
     "Revolution",
+    "START",
     "Scene",
     "ScriptError",
     "Settings",

@@ -52,6 +52,13 @@ class Entity(Handle):
         entity = Entity._adopt(create("crt_entity_with_id", self._handle, number))
         return entity._made_by(self, "with_id", number)
 
+    def with_user(self, user: SupportsIndex) -> "Entity":
+        """Returns the entity with a number of your choice for all its parts that have none, which
+        crt.FULL_HIT and crt.LOCATION report. The innermost one holds."""
+        number = _arguments.whole(user, "with_user: user", ctypes.c_uint64)
+        entity = Entity._adopt(create("crt_entity_with_user", self._handle, number))
+        return entity._made_by(self, "with_user", number)
+
     def transformed(self, matrix: ArrayLike) -> "Entity":
         """Returns the entity moved by an affine map: a 3 x 4 matrix, or a 4 x 4 one whose last row
         is 0, 0, 0, 1."""

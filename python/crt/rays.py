@@ -1,7 +1,8 @@
 """Rays and hits are NumPy arrays that the library reads and writes in place.
 
-RAY, HIT and HIT_PART are the layouts of crt_ray, crt_hit and crt_hit_part. Arrays of them may be of
-any shape, and have gaps: a field of an array of larger records will do. What would need a copy is
+RAY, HIT, HIT_PART, FULL_HIT and START are the layouts of crt_ray, crt_hit, crt_hit_part,
+crt_full_hit and crt_start. LOCATION is what Prepared.locate() returns. Arrays of them may be of any
+shape, and have gaps: a field of an array of larger records will do. What would need a copy is
 refused.
 
 crt.rays() makes rays that reach from 0 to infinity. Beware of np.zeros(n, crt.RAY): there t_max is
@@ -48,7 +49,24 @@ HIT_PART = np.dtype(
         ("v", "f8"),
     ]
 )
-LAYOUTS = {"RAY": RAY, "HIT": HIT, "HIT_PART": HIT_PART}
+START = np.dtype([("bits", "u8", 2)])
+FULL_HIT = np.dtype(
+    [
+        ("t", "f8"),
+        ("position", "f8", 3),
+        ("normal", "f8", 3),
+        ("u", "f8"),
+        ("v", "f8"),
+        ("entity_id", "u4"),
+        ("part_id", "u4"),
+        ("face", "u4"),
+        ("flags", "u4"),
+        ("user", "u8"),
+        ("start", START),
+    ]
+)
+LOCATION = np.dtype([("entity_id", "u4"), ("part_id", "u4"), ("user", "u8")])
+LAYOUTS = {"RAY": RAY, "HIT": HIT, "HIT_PART": HIT_PART, "START": START, "FULL_HIT": FULL_HIT}
 
 ENTERING = 1
 """is a flag of hits: the ray goes into the solid, or through a surface against its normal"""
@@ -149,13 +167,18 @@ def camera_rays(camera: Camera, width: int, height: int) -> Rays:
     return result
 
 
+def points_of(value: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Returns points one after the other in memory, each of 3 numbers."""
+    return np.ascontiguousarray(_vectors(value, name))
+
+
 class Batch:
     """A Batch says where the library finds the items of an array: where, how many, how many bytes
     apart. It keeps the array."""
 
     def __init__(self, array: Ray | NDArray[Any], dtype: np.dtype[Any], name: str) -> None:
         kind = next(kind for kind, layout in LAYOUTS.items() if layout is dtype)
-        if dtype is RAY and isinstance(array, np.void):
+        if isinstance(array, np.void):
             array = np.asarray(array)  # one record
         if not isinstance(array, np.ndarray):
             raise _arguments.refusal(name, f"a NumPy array of crt.{kind}", array)
@@ -179,6 +202,12 @@ class Batch:
         self.count = math.prod(items)
         self.address = array.ctypes.data
         self.stride = _common_stride(items, steps, dtype.itemsize, name)
+
+    def packed(self) -> "Batch":
+        """Returns a copy whose items follow one another."""
+        array = np.ascontiguousarray(self.array)
+        kind = next(layout for layout in LAYOUTS.values() if layout == array.dtype)
+        return Batch(array, kind, "")
 
     def as_records(self) -> NDArray[np.void]:
         """Returns the rays as an array of crt.RAY, which may be a copy."""

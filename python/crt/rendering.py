@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import Any, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _queries
 from ._callbacks import Guard
@@ -15,7 +15,17 @@ from ._library import create
 from .images import Image
 from .jobs import Job
 from .options import Log, Path, Progress, Region, make_options
-from .rays import HIT, RAY, Batch, Ray, Rays
+from .rays import FULL_HIT, HIT, RAY, START, Batch, Ray, Rays, points_of
+
+
+def _starts(starts: NDArray[np.void] | None, rays: Batch, name: str) -> Batch | None:
+    """Returns where the starts of rays are."""
+    if starts is None:
+        return None
+    batch = Batch(starts, START, name)
+    if batch.shape != rays.shape:
+        raise ValueError(f"{name} of shape {batch.shape} are not those of rays of {rays.shape}")
+    return batch
 
 
 class Prepared(Handle):
@@ -145,6 +155,72 @@ class Prepared(Handle):
     def occluded(self, rays: Ray | NDArray[Any]) -> NDArray[np.bool_]:
         """Asks whether any surface blocks each ray."""
         return _queries.are_occluded(self._handle, Batch(rays, RAY, "rays"))
+
+    def trace(
+        self,
+        rays: Ray | NDArray[Any],
+        starts: NDArray[np.void] | None = None,
+        out: NDArray[np.void] | None = None,
+    ) -> NDArray[np.void]:
+        """Finds the nearest hit of each ray with all that is known of it, as an array of
+        crt.FULL_HIT. A miss has an infinite t, and crt.NO_ENTITY for entity, part and face.
+
+        `starts` says on what each ray begins: hits["start"] of earlier hits in the same prepared
+        scene, or zeros for rays that begin in free space. A ray never meets there again what it
+        begins on, whatever its coordinates say, and goes to the side that its direction says. Give
+        it the position of the hit as its origin. So a walk ends:
+
+            hits = prepared.trace(rays)
+            while (found := hits["t"] < np.inf).any():
+                rays, hits = rays[found], hits[found]
+                rays["origin"] = hits["position"]
+                hits = prepared.trace(rays, hits["start"])
+
+        `rays` and `out` are used in place, as by intersect(). `starts` may lie in `out`.
+        """
+        questions = Batch(rays, RAY, "rays")
+        begins = _starts(starts, questions, "starts")
+        if out is None:
+            out = np.empty(questions.shape, FULL_HIT)
+        answers = Batch(out, FULL_HIT, "hits")
+        if answers.shape != questions.shape or not out.flags.writeable:
+            raise ValueError(
+                f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}"
+            )
+        _queries.trace(self._handle, questions, begins, answers)
+        return out
+
+    def blocked(
+        self,
+        rays: Ray | NDArray[Any],
+        starts: NDArray[np.void] | None = None,
+        ends: NDArray[np.void] | None = None,
+    ) -> NDArray[np.bool_]:
+        """Asks whether anything lies between the start and the end of each ray. `starts` are as in
+        trace(). `ends` are the starts of hits on which rays end, at t_max: what they end on does
+        not block them there."""
+        questions = Batch(rays, RAY, "rays")
+        begins = _starts(starts, questions, "starts")
+        finishes = _starts(ends, questions, "ends")
+        if begins is not None and finishes is not None and begins.stride != finishes.stride:
+            begins, finishes = begins.packed(), finishes.packed()
+        return _queries.are_blocked(self._handle, questions, begins, finishes)
+
+    def trace_all(
+        self, rays: Ray | NDArray[Any], starts: NDArray[np.void] | None = None
+    ) -> Crossings:
+        """Finds every crossing along rays, in order, as crt.Crossings of crt.FULL_HIT. `starts` are
+        as in trace(). It takes less time than crossings()."""
+        questions = Batch(np.asarray(rays), RAY, "rays")
+        begins = _starts(starts, questions, "starts")
+        return Crossings(*_queries.all_crossings(self._handle, questions, begins))
+
+    def locate(self, points: ArrayLike) -> NDArray[np.void]:
+        """Finds in what each point is, as an array of crt.LOCATION: the innermost solid around it,
+        by its `entity_id`, `part_id` and `user`. The part is the first as written that holds the
+        point. A point in no solid has crt.NO_ENTITY. `points` have 3 numbers in the last
+        dimension."""
+        return _queries.locate(self._handle, points_of(points, "locate: points"))
 
     @overload
     def crossings(self, rays: Rays | NDArray[np.float64]) -> Crossings: ...  # type: ignore

@@ -241,6 +241,13 @@ crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entity** out)
   });
 }
 
+crt_status crt_entity_with_user(crt_entity* entity, uint64_t user, crt_entity** out) {
+  return create(out, [&] {
+    require(entity, "entity");
+    return entity->value.with_user(user);
+  });
+}
+
 int32_t crt_entity_is_solid(const crt_entity* entity) {
   return entity != nullptr && entity->value.is_solid() ? 1 : 0;
 }

@@ -63,6 +63,7 @@ EntityDescription description_of(const EntityNode& node) {
   }
   if (wrapper.material) add_material(result.values, *wrapper.material);
   if (wrapper.id) result.values.emplace_back("id", std::to_string(*wrapper.id));
+  if (wrapper.user) result.values.emplace_back("user", std::to_string(*wrapper.user));
   return result;
 }
 

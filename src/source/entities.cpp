@@ -148,12 +148,23 @@ std::string EntityWriter::wrapper(const EntityWrapper& wrapper) {
   std::string text = written_.at(wrapper.child.get());
   if (wrapper.to_parent) text = placed(std::move(text), *wrapper.to_parent);
   if (wrapper.material) text = with_material(text, *wrapper.material);
+  if (wrapper.user) text = with_user(text, *wrapper.user);
   if (!wrapper.id) return text;
   const std::string id = std::to_string(*wrapper.id);
   if (program_.syntax().is_c())
     return program_.create("entity", "crt_entity_with_id", {text, id + "U"});
   if (program_.syntax().is_script()) return modified(text, "id", id);
   return called(text, fmt::format("with_id({})", id));
+}
+
+/// Scripts have no such numbers, as nothing in them could ask for one.
+std::string EntityWriter::with_user(const std::string& text, std::uint64_t user) {
+  const std::string number = std::to_string(user);
+  if (program_.syntax().is_script()) return text;
+  if (program_.syntax().is_c())
+    return program_.create("entity", "crt_entity_with_user", {text, number + "U"});
+  return called(text,
+                fmt::format("with_user({}{})", number, program_.syntax().is_cpp() ? "U" : ""));
 }
 
 std::string EntityWriter::placed(std::string entity, const core::TransformChain& chain) {

@@ -29,6 +29,7 @@ class EntityWriter {
   std::string chain(const std::vector<std::string>& parts, const char* sign);
   std::string wrapper(const EntityWrapper& wrapper);
   std::string placed(std::string entity, const core::TransformChain& chain);
+  std::string with_user(const std::string& text, std::uint64_t user);
   std::string placed_by(const std::string& entity, const Transform& map);
   std::string with_material(const std::string& entity, const SharedMaterial& material);
   std::string modified(const std::string& entity, std::string_view modifier,

@@ -297,6 +297,22 @@ AT(crt_hit, v, 40);
 AT(crt_hit, entity_id, 48);
 AT(crt_hit, flags, 52);
 
+SIZE(crt_start, 16);
+AT(crt_start, bits, 0);
+
+SIZE(crt_full_hit, 112);
+AT(crt_full_hit, t, 0);
+AT(crt_full_hit, position, 8);
+AT(crt_full_hit, normal, 32);
+AT(crt_full_hit, u, 56);
+AT(crt_full_hit, v, 64);
+AT(crt_full_hit, entity_id, 72);
+AT(crt_full_hit, part_id, 76);
+AT(crt_full_hit, face, 80);
+AT(crt_full_hit, flags, 84);
+AT(crt_full_hit, user, 88);
+AT(crt_full_hit, start, 96);
+
 VALUE(CRT_OK, 0);
 VALUE(CRT_ERROR_INVALID_ARGUMENT, 1);
 VALUE(CRT_ERROR_SCRIPT, 2);

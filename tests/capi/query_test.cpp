@@ -253,6 +253,86 @@ TEST_CASE("parts are those of the nearest hits, and lie where the caller wants t
   CHECK(std::strstr(crt_error_message(), "rays[2]") != nullptr);
 }
 
+TEST_CASE("full hits have what hits and parts have, and rays go on from them in place") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  std::vector<crt_ray> rays = random_rays(3000);
+  const std::size_t count = rays.size();
+  std::vector<crt_hit> hits(count);
+  std::vector<crt_hit_part> parts(count);
+  std::vector<crt_full_hit> full(count);
+  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, count, hits.data(), 0) == CRT_OK);
+  REQUIRE(crt_hit_parts(prepared.get(), rays.data(), 0, count, parts.data(), 0) == CRT_OK);
+  REQUIRE(crt_trace(prepared.get(), rays.data(), 0, nullptr, 0, count, full.data(), 0) == CRT_OK);
+  for (std::size_t i = 0; i < count; ++i) {
+    REQUIRE(full[i].t == hits[i].t);
+    REQUIRE(std::memcmp(full[i].normal, hits[i].normal, sizeof full[i].normal) == 0);
+    REQUIRE(full[i].u == hits[i].u);
+    REQUIRE(full[i].v == hits[i].v);
+    REQUIRE(full[i].flags == hits[i].flags);
+    REQUIRE(full[i].entity_id == parts[i].entity_id);
+    REQUIRE(full[i].part_id == parts[i].part_id);
+    REQUIRE(full[i].face == parts[i].face);
+    REQUIRE(full[i].user == 0);
+  }
+  // All crossings, by hits of their own and at once.
+  std::vector<std::size_t> first(count + 1, 7);
+  REQUIRE(crt_trace_all(prepared.get(), rays.data(), 0, nullptr, 0, count, nullptr, 0,
+                        first.data()) == CRT_ERROR_LIMIT);
+  const std::size_t total = first[count];
+  std::vector<crt_full_hit> all(total);
+  REQUIRE(crt_trace_all(prepared.get(), rays.data(), 0, nullptr, 0, count, all.data(), total,
+                        first.data()) == CRT_OK);
+  REQUIRE(first[count] == total);
+  for (std::size_t i = 0; i < count; ++i) {
+    crt_hit crossings[16];
+    std::size_t number = 0;
+    REQUIRE(crt_crossings(prepared.get(), &rays[i], crossings, 16, &number) == CRT_OK);
+    REQUIRE(first[i + 1] - first[i] == number);
+    for (std::size_t k = 0; k < number; ++k) REQUIRE(all[first[i] + k].t == crossings[k].t);
+  }
+  // Walks whose starts lie in the hits that are written.
+  std::vector<std::size_t> met(count);
+  for (int step = 0; step < 20; ++step) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (full[i].t == infinity) continue;
+      ++met[i];
+      std::memcpy(rays[i].origin, full[i].position, sizeof rays[i].origin);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (full[i].t == infinity) rays[i].t_max = 0;  // it has ended
+    }
+    REQUIRE(crt_trace(prepared.get(), rays.data(), 0, &full[0].start, sizeof full[0], count,
+                      full.data(), 0) == CRT_OK);
+  }
+  for (std::size_t i = 0; i < count; ++i) REQUIRE(met[i] == first[i + 1] - first[i]);
+}
+
+TEST_CASE("a start of nowhere in the scene is refused, with its index") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  const std::vector<crt_ray> rays = random_rays(3);
+  std::vector<crt_start> starts(3, crt_start{});
+  starts[1].bits[0] = 12345;
+  std::vector<crt_full_hit> full(3);
+  full[0].t = 99;
+  CHECK(crt_trace(prepared.get(), rays.data(), 0, starts.data(), 0, 3, full.data(), 0) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(std::strstr(crt_error_message(), "starts[1]") != nullptr);
+  CHECK(full[0].t == 99);
+  std::uint8_t blocked[3] = {7, 7, 7};
+  CHECK(crt_blocked(prepared.get(), rays.data(), 0, nullptr, starts.data(), 0, 3, blocked) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(std::strstr(crt_error_message(), "ends[1]") != nullptr);
+  CHECK(blocked[0] == 7);
+  const double points[6] = {0, 0, 0, 0, std::nan(""), 0};
+  std::uint32_t ids[2] = {7, 7};
+  CHECK(crt_locate(prepared.get(), points, 0, 2, ids, nullptr, nullptr) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(std::strstr(crt_error_message(), "points[1]") != nullptr);
+  CHECK(ids[0] == 7);
+}
+
 TEST_CASE("camera rays lead to what a picture shows") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());

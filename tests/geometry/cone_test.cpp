@@ -122,7 +122,7 @@ TEST_CASE("cone: equal radii make a cylinder") {
 TEST_CASE("cone: a ray that starts on its other nappe meets this one as any other ray does") {
   const Cone cone{.from = {0, 0, 0}, .to = {0, 1, 0}, .radius = 1, .radius2 = 0};
   for (const core::Side side : {core::Side::outside, core::Side::inside}) {
-    const core::RayStart start{.face = 0, .side = side, .on_face = false};
+    const core::FaceStart start{.face = 0, .side = side, .on_face = false};
     const auto down =
         crossings(cone, {.origin = {1, 2, 0}, .direction = {-0.3, -1, 0}, .start = start});
     REQUIRE(down.size() == 2);

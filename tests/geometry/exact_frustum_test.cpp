@@ -196,7 +196,7 @@ TEST_CASE(
     const Vec3 direction = random.direction();
     if (std::abs(glm::dot(direction, normal)) < 1e-6) continue;
     const bool inwards = glm::dot(direction, normal) < 0;
-    const core::RayStart start{.face = 0,
+    const core::FaceStart start{.face = 0,
                                .side = inwards ? core::Side::inside : core::Side::outside};
     const core::CrossingList found = exact_crossings(cone, {}, point, direction, start);
     core::ObjectRay ray{.origin = point, .direction = direction};

@@ -90,7 +90,7 @@ inline WholeRay small_ray(Random& random) {
 /// Returns the crossings of the exact tier with a ray in the world.
 inline core::CrossingList exact_crossings(const Primitive& primitive, const Transform& to_world,
                                           const Vec3& origin, const Vec3& direction,
-                                          const core::RayStart& start = {}) {
+                                          const core::FaceStart& start = {}) {
   const core::Placement placement{core::PreciseTransform(to_world)};
   std::uint64_t escalations = 0;
   core::ObjectRay object_ray = placement.to_object(origin, direction);

@@ -8,6 +8,7 @@ from support import SOURCE
 
 sys.path.insert(0, str(SOURCE / "examples/python"))
 import golf  # noqa: E402
+import histories  # noqa: E402
 import tutorial_rays  # noqa: E402
 import tutorial_render  # noqa: E402
 import tutorial_scene  # noqa: E402
@@ -32,6 +33,15 @@ class Golf(unittest.TestCase):
         self.assertGreater(white[:3].min(), 0.3)
         self.assertGreater(red[0], 3 * red[1])
         self.assertGreater(sky[2], sky[0])
+
+
+class Histories(unittest.TestCase):
+    def test_no_particle_is_lost_and_paths_are_spread_as_the_volume_is(self):
+        random = np.random.default_rng(5)
+        paths, lost, steps = histories.follow(histories.cells().prepare(), 20_000, random)
+        self.assertEqual(lost, 0)
+        self.assertGreater(steps, 200_000)
+        np.testing.assert_allclose(paths / paths.sum(), histories.true_shares(), atol=5e-3)
 
 
 def small(scene: crt.Scene) -> crt.Scene:

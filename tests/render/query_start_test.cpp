@@ -62,6 +62,14 @@ std::array<OnSurface, 6> surfaces(Chance& chance, double r) {
        {Disc{.center = c, .normal = n, .radius = r}, c + r * along * around}}};
 }
 
+/// Returns the size of an object as the promise has it, or 0 for one without a limit.
+double half_of_longest_side(const Entity& entity) {
+  const auto& [lower, upper] = bounding_box(entity);
+  const Vec3 half = 0.5 * (upper - lower);
+  const double longest = std::max({half.x, half.y, half.z});
+  return std::isfinite(longest) ? longest : 0;
+}
+
 /// Returns how far the nearest hit is, which four queries agree on.
 double nearest(const PreparedScene& scene, const Ray& ray) {
   const std::optional<Hit> hit = intersect(scene, ray);
@@ -108,7 +116,8 @@ TEST_CASE(
       const PreparedScene exact = prepare(scene);
       const Vec3 d = chance.direction();
       const double extent =
-          size + std::max({std::abs(on.point.x), std::abs(on.point.y), std::abs(on.point.z)});
+          half_of_longest_side(on.entity) +
+          std::max({std::abs(on.point.x), std::abs(on.point.y), std::abs(on.point.z)});
       const double step = std::pow(2, chance.between(0, 9)) * u * extent * (i % 2 == 0 ? 1 : -1);
       const Ray ray{.origin = on.point - step * d, .direction = d};
       const double near = 1e6 * u * extent;

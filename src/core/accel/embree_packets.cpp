@@ -165,8 +165,8 @@ void EmbreeTree::find_nearest_spheres(const RayBatch& rays, const RayBatch::Numb
     known.missing |= (lanes & ~entry.coming) << (group * lane_count);
     const Lanes squared_length = dot(direction, direction);
     search.set_squared_lengths(group * lane_count - first_ray, to_floats(squared_length));
-    const LaneMask is_plain =
-        NearestSphereFilter::is_plain(squared_length, rays.start_errors[group] * scale_);
+    const LaneMask is_plain = NearestSphereFilter::is_plain(
+        squared_length, (rays.start_errors[group] + rays.max_size_error) * scale_);
     part.put(group, entry.coming & entry.near & mask_of(is_plain), entry, direction, scale_);
   });
   if (part.followed == 0) return;

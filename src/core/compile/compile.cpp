@@ -238,10 +238,12 @@ void Compiler::make_leaves() {
                  leaf.material = source.material;
                  leaf.entity_id = source.entity_id;
                  leaf.part_id = source.part_id;
+                 leaf.user = source.user;
                  leaf.complemented = source.complemented;
                  leaf.has_materials = source.has_materials;
                  leaf.takes_entity_id = source.takes_entity_id;
                  leaf.takes_part_id = source.takes_part_id;
+                 leaf.takes_user = source.takes_user;
                  const FacetAttributes* const facets = leaf.shape->facet_attributes();
                  leaf.has_normals = facets != nullptr && facets->has_normals();
                  const bool is_plain = !leaf.complemented && leaf.placement->is_identity();

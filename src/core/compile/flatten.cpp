@@ -182,6 +182,7 @@ void Flattening::add_instance(const Part& part) {
                                .prototype = prototype_number(part),
                                .entity_id = part.id,
                                .part_id = part.part_id,
+                               .user = part.user.value_or(0),
                                .id_is_of_all = part.id_is_final});
 }
 
@@ -262,10 +263,12 @@ void Flattening::add_leaf(const Part& part, bool complemented) {
        .material = has_materials ? facet_materials(*facets) : material_number(material),
        .entity_id = part.id,
        .part_id = part.part_id,
+       .user = part.user.value_or(0),
        .complemented = complemented,
        .has_materials = has_materials,
        .takes_entity_id = is_prototype_ && !part.id_is_final,
-       .takes_part_id = is_prototype_ && !part.has_part_id});
+       .takes_part_id = is_prototype_ && !part.has_part_id,
+       .takes_user = is_prototype_ && !part.user});
   result_.programs_of_leaves.push_back(program_);
 }
 

@@ -18,10 +18,12 @@ struct LeafSource {
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
   std::uint32_t part_id = 0;
+  std::uint64_t user = 0;
   bool complemented = false;
   bool has_materials = false;    ///< of facets, from the one behind `material` on
   bool takes_entity_id = false;  ///< as in Leaf
   bool takes_part_id = false;
+  bool takes_user = false;
 };
 
 /// A PrototypeSource is what instances share: a node, with the material of parts without one.

@@ -47,15 +47,17 @@ inline StartPoint start_in_prototype(const CompiledScene& scene, const SceneObje
 struct Ids {
   std::uint32_t entity = 0;
   std::uint32_t part = 0;
+  std::uint64_t user = 0;
 };
 
 inline Ids ids_of(const CompiledScene& scene, const RayHit& hit) {
   const Leaf& leaf = scene.leaf_of(hit);
-  Ids ids{leaf.entity_id, leaf.part_id};
+  Ids ids{leaf.entity_id, leaf.part_id, leaf.user};
   if (!scene.is_of_instance(hit)) return ids;
   const Instance& instance = scene.instances[scene.objects[hit.object].instance];
   if (leaf.takes_entity_id || instance.id_is_of_all) ids.entity = instance.entity_id;
   if (leaf.takes_part_id) ids.part = instance.part_id;
+  if (leaf.takes_user) ids.user = instance.user;
   return ids;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "core/csg/entity_node.hpp"
 
@@ -32,6 +33,7 @@ struct Part {
   bool id_is_final = false;   ///< a with_id above overrides inner ones
   std::uint32_t part_id = 0;  ///< of the innermost with_id, or the entity's place in the scene
   bool has_part_id = false;   ///< from a with_id
+  std::optional<std::uint64_t> user{};  ///< of the innermost with_user
 
   /// Returns the part with the wrappers around its node removed and applied.
   Part unwrapped(TransformPool& pool) const {
@@ -49,6 +51,7 @@ struct Part {
         inner.part_id = *wrapper->id;
         inner.has_part_id = true;
       }
+      if (wrapper->user) inner.user = wrapper->user;
     }
     return inner;
   }

@@ -192,6 +192,13 @@ Entity Entity::with_id(std::uint32_t id) const {
   return make_entity(std::move(wrapper));
 }
 
+Entity Entity::with_user(std::uint64_t user) const {
+  if (is_empty()) return *this;
+  EntityWrapper wrapper = wrapper_of(*this);
+  if (!wrapper.user) wrapper.user = user;
+  return make_entity(std::move(wrapper));
+}
+
 bool Entity::is_solid() const {
   return node_->solid;
 }

@@ -32,6 +32,7 @@ struct EntityWrapper {
   std::shared_ptr<const core::TransformChain> to_parent;
   std::optional<SharedMaterial> material;  ///< for parts without one of their own
   std::optional<std::uint32_t> id;
+  std::optional<std::uint64_t> user;  ///< for parts without one of their own
   EntityPointer child;
 };
 

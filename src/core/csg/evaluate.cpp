@@ -78,6 +78,17 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   starts_inside_ = root_value();
 }
 
+std::uint32_t CsgEvaluation::first_leaf_inside() const {
+  auto first = static_cast<std::uint32_t>(leaves_.size() - 1);
+  const auto look_at = [&](std::uint32_t leaf) {
+    if (leaf < first && leaf_inside(leaf) && !leaves_[leaf].complemented) first = leaf;
+  };
+  // The others are left somewhere, and so are among those that were met.
+  for (const std::uint32_t leaf : program_.tree.unbounded()) look_at(leaf);
+  for (const CsgCrossing& crossing : work_.met_) look_at(crossing.leaf);
+  return first;
+}
+
 void CsgEvaluation::put_off(Bvh::Child child, double enter) {
   work_.openings_.push_back({enter, child});
   std::push_heap(work_.openings_.begin(), work_.openings_.end(), is_opened_later);
@@ -184,7 +195,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
     // Only fields have more roots. Leaves that share one cross it at the same t, to the bit.
     met.shared = crossing.root < most_roots ? surface.shared : FaceSurface::not_shared;
     if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= farthest_start(ray_) &&
-        is_at_start(in_place, ray_, object_ray_, crossing)) {
+        is_at_start(in_place, ray_, ray_.start.t_error, object_ray_, crossing)) {
       met.t = ray_.t_min;
       met.t_low = 0;
       met.moved = true;

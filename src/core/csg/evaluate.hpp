@@ -1,6 +1,7 @@
 // A CSG object is evaluated along a ray by intervals.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -119,8 +120,8 @@ class CsgWorkspace {
 
 /// Returns a face of `leaf` that lies on the surface a ray starts on, as the leaf's own ray needs
 /// to know it. Returns none if there is no such face. The leaf has the number `index` in the scene.
-RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
-                       std::span<const FaceSurface> face_surfaces, const StartPoint& start);
+FaceStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
+                        std::span<const FaceSurface> face_surfaces, const StartPoint& start);
 
 /// Returns a ray in the world as it is in the space of a leaf, with where it starts on that. The
 /// leaf has the number `index` in its scene.
@@ -137,18 +138,21 @@ bool leaf_crossings(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay
 ExactRay exact_ray(const Placement& placement, const WorldRay& ray, const ObjectRay& object_ray,
                    std::uint64_t& escalations);
 
-/// Returns whether a crossing near the start is of a surface through it.
-bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                      const Crossing& crossing);
+/// Returns whether a crossing near the start is of a surface through it, which rounding may have
+/// put off the start by `start_error`.
+bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, double start_error,
+                      const ObjectRay& object_ray, const Crossing& crossing);
 
 /// Returns whether a crossing is at the start, or before it, so that rounding decides whether it is
 /// ahead. It is of another surface than the one that the ray starts on. `object_ray` is the ray in
 /// the leaf's space.
-inline bool is_at_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                        const Crossing& crossing) {
+inline bool is_at_start(const PlacedLeaf& leaf, const WorldRay& ray, double start_error,
+                        const ObjectRay& object_ray, const Crossing& crossing) {
   const double distance = crossing.t - ray.t_min - crossing.error;
-  if (distance > flattest_start * ray.start.t_error) return false;
-  return distance <= ray.start.t_error || is_through_start(leaf, ray, object_ray, crossing);
+  const double more_errors = start_error > 0 ? (errors_at_start - 1) * crossing.error : 0;
+  if (distance <= std::max(start_error, more_errors)) return true;
+  return distance <= flattest_start * start_error &&
+         is_through_start(leaf, ray, start_error, object_ray, crossing);
 }
 
 /// A CsgEvaluation walks along a ray through one CSG object, from one crossing of its boundary to
@@ -181,6 +185,10 @@ class CsgEvaluation {
 
   /// Returns whether the start of the ray (just after t_min) is inside the object.
   bool starts_inside() const { return starts_inside_; }
+
+  /// Returns the first leaf, as written, that holds the start of a ray which starts inside. It is
+  /// no cutter. To be asked for before next().
+  std::uint32_t first_leaf_inside() const;
 
   /// Finds the next crossing of the boundary with t < t_max. Returns false if there is none.
   bool next(CsgHit& hit);

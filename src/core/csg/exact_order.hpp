@@ -52,7 +52,7 @@ inline double looking_distance(double t) {
 /// A LeafOnRay is a leaf that a ray crosses, and where the ray starts on it.
 struct LeafOnRay {
   PlacedLeaf leaf;
-  RayStart start;
+  FaceStart start;
 };
 /// A FindLeaf returns the leaf of a crossing. It need only be valid until it is asked again.
 using FindLeaf = std::function<LeafOnRay(const NearCrossing& crossing)>;

@@ -23,6 +23,7 @@ struct Instance {
   std::uint32_t prototype = 0;
   std::uint32_t entity_id = 0;  ///< of leaves without one of their own
   std::uint32_t part_id = 0;    ///< of such leaves
+  std::uint64_t user = 0;       ///< of such leaves
   bool id_is_of_all = false;    ///< whether entity_id is that of all leaves
 };
 

@@ -7,13 +7,13 @@
 
 namespace crt::core {
 
-RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
+FaceStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
                        std::span<const FaceSurface> face_surfaces, const StartPoint& start) {
   if (start.surface == nothing) return {};
   const auto on_face = [&](std::uint32_t face) {
     const bool outside =
         (start.side == Side::outside) != leaf.surface_of(face, face_surfaces).flipped;
-    return RayStart{.face = face,
+    return FaceStart{.face = face,
                     .side = outside ? Side::outside : Side::inside,
                     .on_face = start.leaf == index && start.face == face,
                     .t_error = start.t_error};
@@ -22,7 +22,7 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
   // A surface has the number of the first face that lies on it.
   if (start.surface >= leaf.first_face) {
     const std::uint32_t place = start.surface - leaf.first_face;
-    return place < leaf.face_count ? on_face(leaf.face_at(place)) : RayStart{};
+    return place < leaf.face_count ? on_face(leaf.face_at(place)) : FaceStart{};
   }
   if (leaf.shared_faces != nullptr) {
     const auto& faces = leaf.shared_faces->faces;
@@ -30,7 +30,7 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
         faces.begin(), faces.end(), start.surface,
         [](const SharedFaces::Face& face, std::uint32_t wanted) { return face.surface < wanted; });
     const bool is_found = found != faces.end() && found->surface == start.surface;
-    return is_found ? on_face(found->face) : RayStart{};
+    return is_found ? on_face(found->face) : FaceStart{};
   }
   if (leaf.face_count > Leaf::few_faces) return {};
   for (std::uint32_t place = 0; place < leaf.face_count; ++place) {
@@ -62,12 +62,12 @@ ExactRay exact_ray(const Placement& placement, const WorldRay& ray, const Object
   return exact;
 }
 
-bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                      const Crossing& crossing) {
+bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, double start_error,
+                      const ObjectRay& object_ray, const Crossing& crossing) {
   const SurfacePoint point = leaf.leaf.shape->surface_point(object_ray, crossing, false);
   const Vec3 normal = leaf.placement.normal_to_world(point.normal);
   const double distance = crossing.t - ray.t_min - crossing.error;
-  return distance * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
+  return distance * std::abs(glm::dot(normal, ray.direction)) <= start_error;
 }
 
 }  // namespace crt::core

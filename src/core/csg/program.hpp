@@ -67,6 +67,7 @@ struct Leaf {
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
   std::uint32_t part_id = 0;
+  std::uint64_t user = 0;        ///< of Entity::with_user(), or 0
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces
   std::uint32_t face_count = 0;  ///< how many of them are there
   /// A leaf of more faces than this has its shared faces in a list, if there are any.
@@ -81,6 +82,7 @@ struct Leaf {
   /// These say whether a prototype's leaf has the ids of each instance.
   bool takes_entity_id = false;
   bool takes_part_id = false;
+  bool takes_user = false;
 
   /// Returns the number of the material of a face.
   std::uint32_t material_of(std::uint32_t face) const {

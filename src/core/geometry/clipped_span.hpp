@@ -17,7 +17,7 @@ class ClippedSpan {
  public:
   /// `shortest` is the length in t that remains for a ray that starts into the solid, if rounding
   /// would have it leave at once. A direction at odds with its side may do so, too.
-  ClippedSpan(const RayStart& start, double shortest) : start_(start), shortest_(shortest) {
+  ClippedSpan(const FaceStart& start, double shortest) : start_(start), shortest_(shortest) {
     enter_.t = -infinity;
     leave_.t = infinity;
   }
@@ -65,7 +65,7 @@ class ClippedSpan {
  private:
   bool starts_on_face() const { return start_.face != no_face && start_.on_face; }
 
-  RayStart start_;
+  FaceStart start_;
   double shortest_;
   bool empty_ = false;
   Crossing enter_;

@@ -11,6 +11,7 @@
 #include "core/compile/memory.hpp"
 #include "core/intersect/isolated.hpp"
 #include "core/math/vector.hpp"
+#include "core/ray/line_of_ray.hpp"
 #include "core/tasks/parallel.hpp"
 
 namespace crt::core {
@@ -87,6 +88,7 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
     if (bounds.finite()) {
       bounded.push_back(i);
       total.include(bounds);
+      largest_radius_ = std::max(largest_radius_, radius_of(bounds));
     } else {
       unbounded.push_back(i);
     }
@@ -97,6 +99,7 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
   enclosed_ = enclosed_objects(compiled_, workers);
   if (bounded.empty()) return;
   margin_ = margin_of(total);
+  farthest_ = total.farthest();
   isolated_ = isolated_objects(compiled_, materials, bounded, unbounded_, margin_, workers);
   std::vector<Bounds> boxes;
   boxes.reserve(bounded.size());
@@ -163,12 +166,34 @@ std::uint32_t Accelerator::entered_isolated(const StartPoint& start) const {
   return enters ? isolated_[object] : nothing;
 }
 
-bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
+bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit, RayWorkspace& work) const {
   if (!(ray.end_error > 0)) return false;
-  const Vec3 normal =
-      LeafOfHit(compiled_, hit).placement().normal_to_world(surface_point(ray, hit, false).normal);
+  const bool is_known = ray.end_point.is_surface_of(hit);
+  if (!is_known && hit.t < certain_end(ray.t_max, ray.end_error, ray.max_size_error)) return false;
+  const LeafOfHit in_place(compiled_, hit);
+  const Vec3 normal = in_place.placement().normal_to_world(surface_point(ray, hit, false).normal);
   const double slope = std::abs(glm::dot(normal, ray.direction));
-  return (ray.t_max - hit.t - hit.error) * slope <= ray.end_error;
+  const double error = ray.end_error + size_error(ray, hit.object);
+  const double distance = ray.t_max - hit.t;
+  const double across = (distance - hit.error) * slope;
+  if (across <= error || (ray.max_size_error > 0 && distance <= errors_at_start * hit.error))
+    return true;
+  // Whoever says on which surface a ray ends may have rounded its end to floats.
+  constexpr double errors_of_known_end = 0x1p28;
+  return is_known && across <= errors_of_known_end * error &&
+         is_nearest_to_end(PlacedLeaf(in_place.leaf(), in_place.placement()), ray, hit, work);
+}
+
+bool Accelerator::is_nearest_to_end(const PlacedLeaf& leaf, const WorldRay& ray, const RayHit& hit,
+                                    RayWorkspace& work) {
+  CrossingList& crossings = work.end_crossings;
+  crossings.clear();
+  const ObjectRay object_ray = leaf.placement.to_object(ray.origin, ray.direction);
+  leaf_crossings(leaf, ray, object_ray, crossings, work.leaf_escalations);
+  const double distance = std::abs(ray.t_max - hit.t);
+  return std::none_of(crossings.begin(), crossings.end(), [&](const Crossing& other) {
+    return other.face == hit.face && std::abs(ray.t_max - other.t) < distance;
+  });
 }
 
 }  // namespace crt::core

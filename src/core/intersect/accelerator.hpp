@@ -54,6 +54,8 @@ class Accelerator {
   /// Appends for each solid around the ray's start its next crossing, unsorted. A solid that the
   /// ray never leaves counts as left at infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+  /// Finds the innermost solid around a point.
+  Surrounding innermost(const Vec3& point, RayWorkspace& work) const;
   /// Finds whether a ray starts inside of one solid object, and where it leaves that.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
@@ -84,8 +86,20 @@ class Accelerator {
   SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
   /// Fetches beforehand what surface_point() looks at.
   void prefetch_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
+  /// Returns by how much more than its start_error and end_error a ray may be off the surfaces of
+  /// an object at its start and end. That is only of input rays, whose starts nobody knows.
+  double size_error(const WorldRay& ray, std::uint32_t object) const {
+    if (ray.max_size_error == 0) return 0;
+    const Bounds& bounds = compiled_.objects[object].bounds;
+    return bounds.finite() ? std::min(ray.max_size_error, start_rounding * radius_of(bounds))
+                           : ray.max_size_error;
+  }
+  /// Returns the largest coordinate of bounded objects, or infinity without any.
+  double farthest() const { return farthest_; }
+  /// Returns the largest radius of bounded objects.
+  double largest_radius() const { return largest_radius_; }
   /// Returns whether a crossing near the ray's end is of a surface through that end.
-  bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
+  bool is_at_end(const WorldRay& ray, const RayHit& hit, RayWorkspace& work) const;
   /// Returns the object that a ray has left for good when it starts: it cannot meet that again.
   std::uint32_t left_for_good(const StartPoint& start) const;
   /// Returns the isolated solid that a ray starts into from its surface, by its place among the
@@ -93,6 +107,11 @@ class Accelerator {
   std::uint32_t entered_isolated(const StartPoint& start) const;
 
  private:
+  /// Returns the half of a box's longest side.
+  static double radius_of(const Bounds& box) {
+    return largest_component(box.upper / 2.0 - box.lower / 2.0);
+  }
+
   // The driver is templates over a Real: double for a single ray, Lanes for a batch. `Rays` and
   // `Starts` are those of a RayPacketOf<Real>.
   template <class Real>
@@ -150,6 +169,9 @@ class Accelerator {
   /// Does so for one ray by the exact test.
   bool leave_isolated(const BoundingProxy& solid, const WorldRay& ray, RayHit& hit,
                       RayWorkspace& work) const;
+  /// Returns whether no other crossing with the same face of a leaf is nearer to the ray's end.
+  static bool is_nearest_to_end(const PlacedLeaf& leaf, const WorldRay& ray, const RayHit& hit,
+                                RayWorkspace& work);
   /// Gathers the crossings around the place of a hit with coincident ones into `work`. Returns the
   /// first of those at it.
   RayHit gather_coincident(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
@@ -163,6 +185,8 @@ class Accelerator {
   /// Rounding moves places in the scene by less than that. Of two objects that are farther apart
   /// neither matters where the other is.
   double margin_ = 0;
+  double farthest_ = std::numeric_limits<double>::infinity();
+  double largest_radius_ = 0;
   std::vector<std::uint32_t> isolated_;     ///< by object: see isolated_objects()
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
   FlatBoxList flat_box_list_;               ///< takes its place if there are few boxes

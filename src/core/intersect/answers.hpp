@@ -17,6 +17,13 @@ struct Stay {
   RayHit exit;
 };
 
+/// A Surrounding is the innermost solid around a point, with the first of its leaves that hold the
+/// point. There is none if `object` is nothing.
+struct Surrounding {
+  std::uint32_t object = nothing;
+  std::uint32_t leaf = nothing;
+};
+
 /// A FirstLeaves has the nearest crossings of a batch's rays, without what else a hit has.
 struct FirstLeaves {
   RayMask found = 0;  ///< for other rays nothing here means anything

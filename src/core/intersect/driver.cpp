@@ -191,6 +191,26 @@ void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
   });
 }
 
+Surrounding Accelerator::innermost(const Vec3& point, RayWorkspace& work) const {
+  // Along this direction the order of solids is found. It runs along no face that people make.
+  const WorldRay line{.origin = point, .direction = {0.7390851, 0.5671433, 0.3628943}};
+  WorldRay start = line;
+  start.t_max = std::numeric_limits<double>::min();
+  Surrounding innermost;
+  double nearest = infinity;
+  test_all(start, work, [&](std::uint32_t object) {
+    Located query(*this, line, work);
+    query.test(object);
+    if (query.leaf == nothing) return;
+    const bool is_inner = innermost.object == nothing || query.leaves_at < nearest ||
+                          (query.leaves_at == nearest && object > innermost.object);
+    if (!is_inner) return;
+    innermost = {object, query.leaf};
+    nearest = query.leaves_at;
+  });
+  return innermost;
+}
+
 Stay Accelerator::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
   work.csg.steps.begin_ray();
   Stayed query(*this, ray, work);

@@ -53,9 +53,10 @@ auto after_start(const FilterLine<Real>& line, const Real& t, const Real& error)
   using Mask = decltype(t > line.begin);
   const Real distance = t - line.begin - error;
   const Mask after = t > line.begin;
-  const Mask clear = distance > flattest_start * line.start_error;
+  const Mask clear =
+      distance > flattest_start * line.start_error && t - line.begin > errors_at_start * error;
   return AfterStart<Mask>{.surely = after && clear,
-                          .unknown = after && !clear && !(distance <= line.start_error)};
+                          .unknown = after && !clear && !(distance <= line.least_start_error)};
 }
 
 /// Returns the chord in a sphere that is not moved.

@@ -85,11 +85,21 @@ class NearestSphereHits {
     near.radius = radius * inverse_of_power(unit);
   }
 
+  /// Returns whether crossings are of no surface through the starts or ends of their rays.
+  static LaneMask is_clear_of_ends(const RayBatch& rays, std::size_t group, const Lanes& t,
+                                   const Lanes& error) {
+    const Lanes start_error = rays.start_errors[group] + rays.max_size_error;
+    const Lanes& end = rays.t_max[group];
+    const Lanes sure_end = certain_end(end, rays.end_errors[group], rays.max_size_error);
+    const Lanes distance = t - rays.t_min[group];
+    return (distance - error > flattest_start * start_error) &
+           (distance > errors_at_start * error) & ((t < sure_end) | (t >= end));
+  }
+
   void find(const NearestSpheres& nearest, const RayBatch& rays, std::size_t group, RayMask meeting,
             const NearGroup& near) {
     const auto chord = SphereChord<Lanes>::on(near.line, near.closest, near.radius);
-    const Lanes& begin = rays.t_min[group];
-    const LaneMask enters = chord.enter > begin;
+    const LaneMask enters = chord.enter > rays.t_min[group];
     const Lanes t = select(enters, chord.enter, chord.leave);
     const Lanes error = chord.error_of(t);
     const Lanes reach = t + coincidence_tolerance(rays.lines[group], t, error);
@@ -97,10 +107,8 @@ class NearestSphereHits {
     errors_[group] = error;
     reach_[group] = reach;
     entering_ |= mask_of(enters) << (group * lane_count);
-    const RayMask known =
-        meeting &
-        mask_of(chord.found & (t - begin - error > flattest_start * rays.start_errors[group]) &
-                (reach <= nearest.to[group]));
+    const RayMask known = meeting & mask_of(chord.found & is_clear_of_ends(rays, group, t, error) &
+                                            (reach <= nearest.to[group]));
     known_ |= known << (group * lane_count);
   }
 

@@ -20,6 +20,8 @@ namespace crt::core {
 ///     bool take(const RayHit& hit);
 ///     // says whether take() never asks for more than the first crossing
 ///     static constexpr bool takes_one;
+///     // says whether set_leaf() is called with the first leaf that holds the start
+///     static constexpr bool asks_for_leaf;
 ///
 /// It is a template, as it is asked for every object that a ray comes near.
 template <class Kind>
@@ -41,7 +43,7 @@ class ObjectQuery {
     if (object.is_instance()) {
       test_instance(object_index, object);
     } else {
-      test({scene, object, *ray_, object_index, 0, nullptr});
+      test({scene, object, *ray_, start_error(object_index), object_index, 0, nullptr});
     }
   }
   /// Takes the crossing of a CSG object that its interval filter has found. Returns whether there
@@ -54,10 +56,11 @@ class ObjectQuery {
   /// Returns whether a crossing is before the ray's end and not at it.
   bool is_before_end(const RayHit& hit) const {
     return hit.t < certain_end(*ray_) ||
-           (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit));
+           (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit, *work_));
   }
 
   bool begin(bool /*starts_inside*/) { return true; }
+  static constexpr bool asks_for_leaf = false;
 
  private:
   /// An ObjectInScene is an object to be tested, which may be that of a prototype.
@@ -65,6 +68,7 @@ class ObjectQuery {
     const CompiledScene& scene;
     const SceneObject& object;
     const WorldRay& ray;         ///< with a start on leaves and surfaces of that scene
+    double start_error;          ///< StartPoint::t_error with what the object's size adds
     std::uint32_t number;        ///< of the object that hits name
     std::uint32_t first_leaf;    ///< is added to the number of a leaf
     const InstanceFrame* frame;  ///< of an instance
@@ -86,6 +90,9 @@ class ObjectQuery {
   void test_leaf(const ObjectInScene& tested);
   void test_csg(const ObjectInScene& tested);
   void test_instance(std::uint32_t object_index, const SceneObject& object);
+  double start_error(std::uint32_t object_index) const {
+    return ray_->start.t_error + accelerator_->size_error(*ray_, object_index);
+  }
 
   const Accelerator* accelerator_;
   const WorldRay* ray_;
@@ -104,7 +111,8 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
   CrossingList& crossings = work_->crossings;
   crossings.clear();
   object_ray.begin = ray.t_min;
-  if (Kind::takes_one) object_ray.first_above = asked_above(farthest_start(ray));
+  if (Kind::takes_one)
+    object_ray.first_above = asked_above(farthest_start(ray.t_min, tested.start_error));
   bool inside = leaf_crossings(leaf, ray, object_ray, crossings, work_->leaf_escalations);
   // Another object's surface may coincide with the one that the ray starts on: then it is at the
   // start as well.
@@ -112,12 +120,14 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
   std::size_t place = 0;
   for (; place < crossings.size(); ++place) {
     const Crossing& crossing = crossings[place];
-    if (crossing.t > ray.t_min && (starts_here || !is_at_start(leaf, ray, object_ray, crossing))) {
+    if (crossing.t > ray.t_min &&
+        (starts_here || !is_at_start(leaf, ray, tested.start_error, object_ray, crossing))) {
       break;
     }
     inside = crossing.entering;
   }
   if (!kind().begin(inside && tested.object.solid)) return;
+  if constexpr (Kind::asks_for_leaf) kind().set_leaf(tested.first_leaf + index);
   for (; place < crossings.size() && crossings[place].t <= limit_; ++place) {
     const Crossing& crossing = crossings[place];
     const FaceSurface face = own.surface_of(crossing.face, tested.scene.face_surfaces);
@@ -140,9 +150,14 @@ void ObjectQuery<Kind>::test_csg(const ObjectInScene& tested) {
   const CsgProgram& program = scene.programs[tested.object.program];
   WorldRay csg_ray = tested.ray;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
+  csg_ray.start.t_error = tested.start_error;
+  csg_ray.max_size_error = 0;
   CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg,
                            Kind::takes_one, tested.frame);
   if (!kind().begin(evaluation.starts_inside())) return;
+  if constexpr (Kind::asks_for_leaf) {
+    kind().set_leaf(tested.first_leaf + program.first_leaf + evaluation.first_leaf_inside());
+  }
   CsgHit found;
   while (evaluation.next(found)) {
     const RayHit hit{.t = found.t,
@@ -165,7 +180,8 @@ void ObjectQuery<Kind>::test_instance(std::uint32_t object_index, const SceneObj
   const InstanceFrame frame = scene.frame_of(object, work_->placements);
   WorldRay ray = *ray_;
   ray.start = start_in_prototype(scene, object, ray.start);
-  test({prototype, prototype.objects[0], ray, object_index, object.first_leaf, &frame});
+  test({prototype, prototype.objects[0], ray, start_error(object_index), object_index,
+        object.first_leaf, &frame});
 }
 
 template <class Kind>

@@ -211,7 +211,14 @@ class ObjectTests {
     Real& limits = packet_.limits[group];
     const std::size_t first_ray = group * group_size;
     RayMask best = 0;
-    for_each_ray(found & mask_of(t < packet_.source.end(group)), [&](std::size_t lane) {
+    const RayMask surely = found & mask_of(t < packet_.groups[group].certain_to);
+    const RayMask in_time = found & mask_of(t < packet_.source.end(group));
+    for_each_ray(in_time, [&](std::size_t lane) {
+      if ((surely >> lane & 1u) == 0) {
+        RayHit hit;
+        write(lane, hit);
+        if (accelerator_.is_at_end(packet_.source.ray(first_ray + lane), hit, work_)) return;
+      }
       const bool is_best =
           Nearest::commit(asked_.hits[first_ray + lane], lane_of(t, lane), 0, object_of(lane),
                           lane_of(reach, lane), [&](RayHit& hit) { write(lane, hit); });

@@ -22,7 +22,7 @@ class Nearest final : public ObjectQuery<Nearest> {
       : ObjectQuery(accelerator, ray, work), best_(best) {}
 
   bool take(const RayHit& hit) {
-    if (!(hit.t < ray().t_max)) return false;
+    if (!is_before_end(hit)) return false;
     const double reach = hit.t + coincidence_tolerance(ray(), hit.t, hit.error);
     if (commit(best_, hit.t, hit.t_low, hit.object, reach, [&](RayHit& best) { best = hit; }))
       set_limit(std::min(limit(), reach));
@@ -99,6 +99,23 @@ class Stayed final : public ObjectQuery<Stayed> {
   }
   bool take(const RayHit& hit) {
     result.exit = hit;
+    return false;
+  }
+};
+
+/// A Located finds whether a ray starts inside of an object, in which leaf, and where it leaves it.
+class Located final : public ObjectQuery<Located> {
+ public:
+  using ObjectQuery::ObjectQuery;
+  static constexpr bool takes_one = false;
+  static constexpr bool asks_for_leaf = true;
+  std::uint32_t leaf = nothing;
+  double leaves_at = std::numeric_limits<double>::infinity();
+
+  bool begin(bool starts_inside) { return starts_inside; }
+  void set_leaf(std::uint32_t first_leaf) { leaf = first_leaf; }
+  bool take(const RayHit& hit) {
+    leaves_at = hit.t;
     return false;
   }
 };

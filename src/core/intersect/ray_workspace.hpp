@@ -21,11 +21,13 @@ struct RayWorkspace {
   NearLeavesWorkspace near_leaves;
   InstancePlacements placements;
   CrossingList crossings;
+  CrossingList end_crossings;  ///< of the surface that a ray ends on
   /// These are about the last hit that has coincident ones. `here` has the crossings at its place
   /// in the order in which their objects were written. `near` has those so near that rounding may
   /// put a ray which starts there on either side of them.
   std::vector<RayHit> here;
   std::vector<RayHit> near;
+  std::vector<RayHit> listed;  ///< of first_listed()
   // sort_crossings() uses these.
   std::vector<std::uint32_t> numbers;
   std::vector<std::pair<std::uint32_t, RayHit>> turns;

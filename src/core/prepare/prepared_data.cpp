@@ -14,6 +14,7 @@
 #include "core/geometry/sphere/sphere.hpp"
 #include "core/intersect/accelerator.hpp"
 #include "core/math/float_environment.hpp"
+#include "core/ray/coincidence_tolerance.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
@@ -125,6 +126,11 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   }
   accelerator_ = &geometry_->accelerator;
   compiled_ = &accelerator_->compiled();
+  if (scene.settings.precision == Precision::standard) {
+    input_tolerance_ = {.rounding = start_rounding,
+                        .max_size_error = start_rounding * accelerator_->largest_radius(),
+                        .farthest = accelerator_->farthest()};
+  }
   entity_ids_ = geometry_->entity_ids;
   for (const SharedMaterial& material : geometry_->materials) {
     workers.poll();
@@ -217,6 +223,23 @@ void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
   std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
     return std::make_tuple(-a.t, a.object) < std::make_tuple(-b.t, b.object);
   });
+}
+
+Surrounding PreparedData::innermost(const Vec3& point, RayWorkspace& work) const {
+  return accelerator_->innermost(point, work);
+}
+
+RayHit PreparedData::first_listed(const WorldRay& ray, const RayHit& nearest,
+                                  RayWorkspace& work) const {
+  WorldRay piece = ray;
+  const double reach = nearest.t + coincidence_tolerance(ray, nearest.t, nearest.error);
+  piece.t_max = std::min(ray.t_max, std::nextafter(reach, infinity));
+  if (piece.t_max < ray.t_max) {
+    piece.end_error = 0;  // nothing ends there
+    piece.end_point = {};
+  }
+  crossings(piece, work.listed, work);
+  return work.listed.empty() ? nearest : work.listed.front();
 }
 
 bool PreparedData::is_on_surface(const Vec3& point, RayWorkspace& work) const {

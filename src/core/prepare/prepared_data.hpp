@@ -47,6 +47,26 @@ struct HitPoint {
   bool solid = false;  ///< a boundary of a volume, not a mere surface
 };
 
+/// An InputTolerance says how far rounding may have put the starts and ends of input rays from
+/// surfaces. It is nothing in the exact tier, which takes them for the points that they are.
+struct InputTolerance {
+  double rounding = 0;        ///< start_rounding, or 0
+  double max_size_error = 0;  ///< WorldRay::max_size_error
+  double farthest = 0;        ///< the largest coordinate of bounded objects, or infinity
+
+  /// Returns the error of places at t along rays, or 0 for places that are far from everything. It
+  /// does so for one ray, or for as many as a Real has lanes.
+  template <class Real>
+  Real error_at(const PlainRay<Real>& ray, const Real& t) const {
+    constexpr double far = 0x1p20;
+    constexpr double largest = 0x1p900;
+    const Real from = largest_component(ray.origin);
+    const Real coordinate = fma(abs(t), largest_component(ray.direction), from);
+    const Real end = min(far * (farthest + from), broadcast<Real>(largest));
+    return select(coordinate < end, rounding * coordinate, Real{});
+  }
+};
+
 /// A PreparedData is immutable after prepare(). Every member function is safe from any number of
 /// threads.
 class PreparedData {
@@ -97,6 +117,13 @@ class PreparedData {
   /// nested solids come from outermost to innermost. A solid that the ray never leaves has t =
   /// infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+
+  /// Finds the innermost solid around a point, as the media of pictures are ordered along a ray.
+  Surrounding innermost(const Vec3& point, RayWorkspace& work) const;
+
+  /// Returns the first of the crossings at the place of a nearest hit that has coincident ones, as
+  /// crossings() lists them.
+  RayHit first_listed(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
   /// Returns whether there is a surface at a point, or so near that rounding may decide. It looks
   /// along three axes across each other, as a line along a surface does not meet it.
@@ -190,6 +217,9 @@ class PreparedData {
             .side = side};
   }
 
+  /// Returns how far input rays may be off what they start and end at.
+  const InputTolerance& input_tolerance() const { return input_tolerance_; }
+
   /// Returns the objects, and what they are made of.
   const CompiledScene& compiled() const { return *compiled_; }
 
@@ -229,6 +259,7 @@ class PreparedData {
   const Accelerator* accelerator_ = nullptr;
   const CompiledScene* compiled_ = nullptr;
   std::span<const std::uint32_t> entity_ids_;  ///< of leaves, close together
+  InputTolerance input_tolerance_;
   std::vector<std::string> warnings_;
   double prepare_seconds_ = 0;
 };

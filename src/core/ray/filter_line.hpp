@@ -19,7 +19,8 @@ struct FilterLine {
   Real inverse_length;
   std::array<Real, 3> inverse;  ///< 1 / direction
   Real begin;                   ///< crossings before it do not count
-  Real start_error;             ///< as StartPoint::t_error
+  Real least_start_error;       ///< StartPoint::t_error
+  Real start_error;             ///< with WorldRay::max_size_error
   Real certain_from;            ///< crossings after it and before certain_to count
   Real certain_to;              ///< finite
 };

@@ -10,20 +10,18 @@ namespace crt::core {
 /// Returns the t before which no crossing can be of a surface through the ray's end. It does so for
 /// one ray, or for as many as a Real has lanes.
 template <class Real>
-[[gnu::always_inline]] inline Real certain_end(const PlainRay<Real>& ray, const Real& t_max,
-                                               const Real& end_error) {
-  const auto ends_on_surface = end_error > 0.0;
-  if (!any(ends_on_surface)) return t_max;
-  // The crossing of a surface through the end may be so far before it. The flatter the ray meets
-  // the surface, the farther it may be.
-  constexpr double relative_width = 0x1p-26;
-  const Real width =
-      relative_width * fma(t_max, largest_component(ray.direction), largest_component(ray.origin));
-  return select(ends_on_surface, t_max - width, t_max);
+[[gnu::always_inline]] inline Real certain_end(const Real& t_max, const Real& end_error,
+                                               double size_error) {
+  // The crossing of a surface through the end may be so far before it, in units of the errors. The
+  // flatter the ray meets the surface, the farther it may be.
+  constexpr double flattest_end = 0x1p23;
+  return select(end_error > 0.0, t_max - flattest_end * (end_error + size_error), t_max);
 }
 
+/// For a ray that ends on a known surface nothing is certain, as that may be anywhere along it.
 inline double certain_end(const WorldRay& ray) {
-  return certain_end(plain_ray(ray), ray.t_max, ray.end_error);
+  const double end_error = ray.end_point.is_known() ? infinity : ray.end_error;
+  return certain_end(ray.t_max, end_error, ray.max_size_error);
 }
 
 /// Clamps an end to 2^900, as conservative tests take only finite ends.
@@ -33,11 +31,11 @@ Real finite_end(const Real& end) {
   return select(end > largest, broadcast<Real>(largest), end);
 }
 
-/// Sets a line to a ray from `begin` to `end`, whose start and end have those rounding errors. It
-/// does so for one ray, or for as many as a Real has lanes.
+/// Sets a line to a ray from `begin` to `end`, whose start and end have those rounding errors and
+/// that WorldRay::max_size_error. It does so for one ray, or for as many as a Real has lanes.
 template <class Real>
 void set_line(const PlainRay<Real>& ray, const Real& begin, const Real& start_error,
-              const Real& end, const Real& end_error, FilterLine<Real>& line) {
+              const Real& end, const Real& end_error, double size_error, FilterLine<Real>& line) {
   const auto& [origin, direction] = ray;
   line.origin = {origin.x, origin.y, origin.z};
   line.direction = {direction.x, direction.y, direction.z};
@@ -46,14 +44,17 @@ void set_line(const PlainRay<Real>& ray, const Real& begin, const Real& start_er
   line.inverse_length = sqrt(line.inverse_squared_length);
   for (std::size_t axis = 0; axis < 3; ++axis) line.inverse[axis] = 1.0 / line.direction[axis];
   line.begin = begin;
-  line.start_error = start_error;
-  line.certain_from = farthest_start(begin, start_error);
-  line.certain_to = finite_end(certain_end(ray, end, end_error));
+  line.least_start_error = start_error;
+  line.start_error = start_error + size_error;
+  line.certain_from = farthest_start(begin, line.start_error);
+  line.certain_to = finite_end(certain_end(end, end_error, size_error));
 }
 
 inline FilterLine<double> line_of(const WorldRay& ray) {
   FilterLine<double> line;
-  set_line(plain_ray(ray), ray.t_min, ray.start.t_error, ray.t_max, ray.end_error, line);
+  const double end_error = ray.end_point.is_known() ? infinity : ray.end_error;
+  set_line(plain_ray(ray), ray.t_min, ray.start.t_error, ray.t_max, end_error, ray.max_size_error,
+           line);
   return line;
 }
 

@@ -19,16 +19,20 @@ inline Side opposite(Side side) {
   return side == Side::outside ? Side::inside : Side::outside;
 }
 
-/// A RayStart says where a ray starts that starts on a surface and not in free space. It is on the
+/// A FaceStart says where a ray starts that starts on a surface and not in free space. It is on the
 /// face itself, or merely on the surface that the face is a piece of. In the latter case it is on
 /// another primitive's face that lies on that surface too.
-struct RayStart {
+struct FaceStart {
   std::uint32_t face = no_face;
   Side side = Side::outside;  ///< of the face's surface
   bool on_face = true;
   /// Rounding has put the start so far off the surface, measured across it in units of t.
   double t_error = 0;
 };
+
+/// The start of a ray may be a crossing that was computed, with an error like that of the crossing
+/// which is compared with it. So twice the error may lie between them.
+inline constexpr double errors_at_start = 2;
 
 /// Computes ObjectRay::from_center() for a ray or for lanes.
 template <class Real, class Ray>
@@ -56,7 +60,7 @@ struct ObjectRay {
   Vec3 origin_low{0, 0, 0};
   Vec3 direction{0, 0, 1};
   Vec3 direction_low{0, 0, 0};
-  RayStart start = {};
+  FaceStart start = {};
   /// Crossings with t below this matter only by their number. Where they are may be found roughly,
   /// with an error bound that says so. They may also be left out, if what is returned says whether
   /// the line is inside before the first that is not.
@@ -65,10 +69,11 @@ struct ObjectRay {
   /// nearer than this to where the ray begins may be at its start and not count.
   double first_above = std::numeric_limits<double>::infinity();
 
-  /// Returns whether a crossing is surely ahead of `first_above`, whatever its error.
+  /// Returns whether a crossing is surely ahead of `first_above`, whatever its error and that of
+  /// the start.
   template <class Crossing>
   bool is_first_asked(const Crossing& crossing) const {
-    return crossing.t - crossing.error > first_above;
+    return crossing.t - errors_at_start * crossing.error > first_above;
   }
 
   /// Returns the point at t + t_low relative to `center`. Subtracting the center early keeps

@@ -13,8 +13,13 @@ WorldRay RayBatch::ray(std::size_t index) const {
                .direction = lines[group].direction.lane(lane),
                .t_min = t_min[group][lane],
                .t_max = t_max[group][lane],
-               .end_error = end_errors[group][lane]};
+               .end_error = end_errors[group][lane],
+               .max_size_error = max_size_error};
   if ((with_starts >> index & 1u) != 0) ray.start = starts[index];
+  if ((with_ends >> index & 1u) != 0) {
+    ray.end_point = ends[index].point;
+    ray.end_error = ends[index].error;
+  }
   ray.start.t_error = start_errors[group][lane];
   return ray;
 }
@@ -26,6 +31,12 @@ void RayBatch::set(std::size_t index, const WorldRay& ray) {
   t_min[group][i] = ray.t_min;
   t_max[group][i] = ray.t_max;
   end_errors[group][i] = ray.end_error;
+  if (ray.end_point.is_known()) {
+    ends[index] = {ray.end_point, ray.end_error};
+    end_errors[group][i] = infinity;
+    with_ends |= RayMask{1} << index;
+  }
+  max_size_error = ray.max_size_error;
 }
 
 template <>
@@ -34,7 +45,7 @@ RayPacketOf<Lanes>::RayPacketOf(const RayBatch& rays, const Starts& of_rays, Ray
   for_each_group(some, [&](std::size_t group, RayMask) {
     limits[group] = rays.t_max[group];
     set_line(rays.lines[group], rays.t_min[group], rays.start_errors[group], limits[group],
-             rays.end_errors[group], groups[group]);
+             rays.end_errors[group], rays.max_size_error, groups[group]);
   });
 }
 

@@ -60,11 +60,19 @@ struct RayBatch {
 
   std::array<RayLanes, group_count> lines;
   Numbers t_min{};
-  Numbers t_max;            ///< infinity unless it is set
-  Numbers start_errors;     ///< StartPoint::t_error
-  Numbers end_errors{};     ///< as in WorldRay
-  RayMask with_starts = 0;  ///< the rays with a start; the others start in free space
+  Numbers t_max;              ///< infinity unless it is set
+  Numbers start_errors;       ///< StartPoint::t_error
+  Numbers end_errors{};       ///< as in WorldRay; infinity for the rays with an end
+  double max_size_error = 0;  ///< as in WorldRay, of all rays
+  RayMask with_starts = 0;    ///< the rays with a start; the others start in free space
   std::array<StartPoint, packet_size> starts;
+  /// A KnownEnd is an EndPoint with the error there.
+  struct KnownEnd {
+    EndPoint point;
+    double error = 0;
+  };
+  RayMask with_ends = 0;  ///< the rays that end on a known surface
+  std::array<KnownEnd, packet_size> ends;
 
   RayBatch() { t_max.fill(lanes_of(std::numeric_limits<double>::infinity())); }
 
@@ -80,7 +88,7 @@ struct RayBatch {
     return lines[index / lane_count].direction.lane(index % lane_count);
   }
   void set(std::size_t index, const WorldRay& ray);
-  /// Sets all of a ray but t_min, t_max and end_error.
+  /// Sets all of a ray but t_min, t_max and the errors of its end and of sizes.
   void set(std::size_t index, const Vec3& origin, const Vec3& direction, const StartPoint& start);
 };
 

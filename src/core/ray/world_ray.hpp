@@ -39,8 +39,25 @@ struct StartPoint {
   }
 };
 
+/// An EndPoint says on what a ray ends, by identity, as a StartPoint does. All are `nothing` for a
+/// ray that ends in free space, or on what nobody knows.
+struct EndPoint {
+  std::uint32_t leaf = nothing;
+  std::uint32_t face = no_face;
+  std::uint32_t surface = nothing;
+
+  bool is_known() const { return leaf != nothing; }
+  /// Returns whether a hit is on the surface of the end.
+  template <class Hit>
+  bool is_surface_of(const Hit& hit) const {
+    if (surface != nothing) return hit.surface == surface;
+    return is_known() && hit.leaf == leaf && hit.face == face;
+  }
+};
+
 /// A point that was meant to be on several surfaces is at most so far from them after rounding, as
-/// a multiple of its largest coordinate.
+/// a multiple of its largest coordinate. A point that somebody else has computed to be on an object
+/// may be off by as much of the object's radius, too.
 inline constexpr double start_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 /// A WorldRay is a ray in the world: origin + t * direction, t_min < t < t_max.
@@ -53,6 +70,11 @@ struct WorldRay {
   /// If the ray ends at something that may be on a surface, this is how far rounding may have put
   /// that from the surface. Surfaces through the end do not count as in between.
   double end_error = 0;
+  EndPoint end_point{};
+  /// The errors at start and end are larger by that, or by less for small objects. Only input rays
+  /// have it, as their start and end are on surfaces that nobody knows. See
+  /// Accelerator::size_error().
+  double max_size_error = 0;
 
   // A packet is made of one ray or of a RayBatch, which has these functions as well.
   const WorldRay& ray(std::size_t /*index*/) const { return *this; }
@@ -76,7 +98,7 @@ Real farthest_start(const Real& begin, const Real& start_error) {
   return begin + flattest_start * start_error;
 }
 inline double farthest_start(const WorldRay& ray) {
-  return farthest_start(ray.t_min, ray.start.t_error);
+  return farthest_start(ray.t_min, ray.start.t_error + ray.max_size_error);
 }
 
 /// Returns ObjectRay::first_above for a ray with that farthest_start(). A crossing above it is not

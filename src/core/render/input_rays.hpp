@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "core/math/vector_lanes.hpp"
+#include "core/prepare/prepared_data.hpp"
 #include "core/ray/ray_packet.hpp"
 #include "crt/query.hpp"
 
@@ -111,7 +112,7 @@ inline constexpr double farthest = 0x1p1022;
 
 /// Converts an input ray to one that can be traced. Its direction is brought near length 1 by a
 /// power of two, which makes any length safe and changes no digit of t. See users_t().
-inline void follow(const Ray& users, WorldRay& ray) {
+inline void follow(const Ray& users, const InputTolerance& tolerance, WorldRay& ray) {
   constexpr double largest = std::numeric_limits<double>::max();
   const int exponent = exponent_of(largest_component(users.direction));
   const PowerOfTwo shorten(-exponent);
@@ -121,11 +122,15 @@ inline void follow(const Ray& users, WorldRay& ray) {
   ray.t_min = std::max(lengthen * std::max(users.t_min, -largest), -farthest);
   ray.t_max = std::min(lengthen * std::min(users.t_max, largest), farthest);
   if (are_without_t(users.t_min, users.t_max)) ray.t_max = ray.t_min;
+  ray.start.t_error = tolerance.error_at(plain_ray(ray), ray.t_min);
+  ray.end_error = tolerance.error_at(plain_ray(ray), ray.t_max);
+  ray.max_size_error = tolerance.max_size_error;
 }
 
 /// Converts valid input rays side by side. Returns false if one is too long or short for that. The
 /// factors that shorten them are put into `to_users_t`.
-inline bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lanes& to_users_t) {
+inline bool follow(const UserRays& users, const InputTolerance& tolerance, std::size_t group,
+                   RayBatch& rays, Lanes& to_users_t) {
   constexpr double largest = std::numeric_limits<double>::max();
   constexpr double longest = 0x1p1022;
   const Lanes extent = largest_component(users.direction);
@@ -136,7 +141,8 @@ inline bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lan
   rays.lines[group] = {users.origin, to_users_t * users.direction};
   rays.t_min[group] = max(lengthen * max(users.t_min, lanes_of(-largest)), lanes_of(-farthest));
   rays.t_max[group] = min(lengthen * min(users.t_max, lanes_of(largest)), lanes_of(farthest));
-  rays.start_errors[group] = Lanes{};
+  rays.start_errors[group] = tolerance.error_at(rays.lines[group], rays.t_min[group]);
+  rays.end_errors[group] = tolerance.error_at(rays.lines[group], rays.t_max[group]);
   return true;
 }
 

@@ -10,6 +10,7 @@
 #include "core/prepare/prepared_data.hpp"
 #include "core/render/input_rays.hpp"
 #include "core/render/query_packet.hpp"
+#include "core/render/ray_start.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
 
@@ -29,12 +30,13 @@ class Query {
  public:
   Query(const PreparedData& data, const Ray& ray, RayWorkspace& work)
       : data_(data), work_(work), users_(ray) {
-    follow(users_, ray_);
+    follow(users_, data.input_tolerance(), ray_);
   }
 
   std::optional<Hit> nearest() const {
-    const RayHit hit = data_.intersect(ray_, work_);
+    RayHit hit = data_.intersect(ray_, work_);
     if (!hit.found()) return std::nullopt;
+    if (hit.has_coincident) hit = data_.first_listed(ray_, hit, work_);
     return described(hit);
   }
 
@@ -45,6 +47,18 @@ class Query {
     out.clear();
     out.reserve(found.size());
     for (const RayHit& hit : found) out.push_back(described(hit));
+  }
+
+  /// Appends every crossing of a ray that begins on the surface of a hit, or of any ray.
+  void crossings(const std::optional<RayHit>& start, std::vector<RayHit>& found,
+                 std::vector<FullHit>& out) {
+    if (start) begin_on(data_, *start, ray_, work_);
+    data_.crossings(ray_, found, work_);
+    for (const RayHit& hit : found) {
+      HitPoint point;
+      data_.hit_point(ray_, hit, true, point);
+      out.push_back(full_hit(users_t(users_, hit.t, hit.t_low), point, data_.ids(hit), hit));
+    }
   }
 
  private:
@@ -67,15 +81,35 @@ void check_places(std::size_t places, std::span<const Ray> rays) {
   throw Error(ErrorCode::invalid_argument, "there are fewer places for answers than rays", "rays");
 }
 
+/// GivenRays are those of a query, with what they begin and end on.
+struct GivenRays {
+  std::span<const Ray> rays;
+  std::span<const RayStart> starts{};  ///< as many as rays, or none
+  std::span<const RayStart> ends{};    ///< as many as rays, or none
+
+  void check() const {
+    const auto are_complete = [&](std::span<const RayStart> some) {
+      return some.empty() || some.size() == rays.size();
+    };
+    if (are_complete(starts) && are_complete(ends)) return;
+    throw Error(ErrorCode::invalid_argument,
+                "there must be as many starts and ends as rays, or none", "starts");
+  }
+};
+
 /// Calls ask(packet, answers) for packet after packet.
 template <class Answers, class Ask>
-void ask_in_packets(const PreparedData& data, std::span<const Ray> rays, const Answers& answers,
+void ask_in_packets(const PreparedData& data, const GivenRays& given, const Answers& answers,
                     RayWorkspace& work, const Ask& ask) {
+  const std::span<const Ray> rays = given.rays;
   check_places(answers.size(), rays);
+  given.check();
   QueryPacket packet(data, work);
   for (std::size_t first = 0; first < rays.size(); first += packet_size) {
     const std::size_t count = std::min(packet_size, rays.size() - first);
     packet.take(rays.subspan(first, count), rays.subspan(first + count));
+    if (!given.starts.empty()) packet.begin_on(given.starts.subspan(first, count));
+    if (!given.ends.empty()) packet.end_on(given.ends.subspan(first, count));
     ask(packet, answers.subspan(first, count));
   }
 }
@@ -143,6 +177,14 @@ std::size_t first_invalid(std::span<const Ray> rays) {
   return rays.size();
 }
 
+std::size_t first_invalid(const PreparedScene& scene, std::span<const RayStart> starts) {
+  const auto is_invalid = [&](const RayStart& start) {
+    return !core::is_of_scene(scene.data(), start);
+  };
+  return static_cast<std::size_t>(std::find_if(starts.begin(), starts.end(), is_invalid) -
+                                  starts.begin());
+}
+
 class RayQueries::State {
  public:
   explicit State(const PreparedScene& scene) : scene_(scene) {}
@@ -151,13 +193,21 @@ class RayQueries::State {
     validate(ray);
     return {scene_.data(), ray, work_};
   }
-  /// Writes answers into places of std::optional<Hit>, PlainHit, HitPart, or Distances.
+  /// Writes answers into places of std::optional<Hit>, PlainHit, HitPart, FullHit, or Distances.
   template <class Answers>
-  void intersect(std::span<const Ray> rays, const Answers& answers) {
+  void intersect(const core::GivenRays& rays, const Answers& answers) {
     const core::FloatEnvironment ieee;
     core::answered([&] {
       core::ask_in_packets(data(), rays, answers, work_,
                            [](core::QueryPacket& packet, auto some) { packet.nearest(some); });
+    });
+  }
+  void occluded(const core::GivenRays& rays, std::span<bool> occluded) {
+    const core::FloatEnvironment ieee;
+    core::answered([&] {
+      core::ask_in_packets(
+          data(), rays, occluded, work_,
+          [](core::QueryPacket& packet, auto answers) { packet.occluded(answers); });
     });
   }
   std::vector<core::RayHit>& found() { return found_; }
@@ -187,34 +237,83 @@ bool RayQueries::occluded(const Ray& ray) {
 }
 
 void RayQueries::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
-  state_->intersect(rays, hits);
+  state_->intersect({rays}, hits);
 }
 
 void RayQueries::intersect(std::span<const Ray> rays, std::span<PlainHit> hits) {
-  state_->intersect(rays, hits);
+  state_->intersect({rays}, hits);
 }
 
 void RayQueries::parts(std::span<const Ray> rays, std::span<HitPart> parts) {
-  state_->intersect(rays, parts);
+  state_->intersect({rays}, parts);
 }
 
 void RayQueries::distances(std::span<const Ray> rays, std::span<double> distances,
                            std::span<std::uint32_t> entity_ids) {
   if (!entity_ids.empty()) core::check_places(entity_ids.size(), rays);
-  state_->intersect(rays, core::Distances{distances, entity_ids});
+  state_->intersect({rays}, core::Distances{distances, entity_ids});
 }
 
 void RayQueries::occluded(std::span<const Ray> rays, std::span<bool> occluded) {
+  state_->occluded({rays}, occluded);
+}
+
+FullHit RayQueries::trace(const Ray& ray, const RayStart& start) {
+  FullHit hit;
+  trace(std::span(&ray, 1), std::span(&start, 1), std::span(&hit, 1));
+  return hit;
+}
+
+void RayQueries::trace(std::span<const Ray> rays, std::span<const RayStart> starts,
+                       std::span<FullHit> hits) {
+  state_->intersect({rays, starts}, hits);
+}
+
+bool RayQueries::blocked(const Ray& ray, const RayStart& start, const RayStart& end) {
+  bool answer = false;
+  blocked(std::span(&ray, 1), std::span(&start, 1), std::span(&end, 1), std::span(&answer, 1));
+  return answer;
+}
+
+void RayQueries::blocked(std::span<const Ray> rays, std::span<const RayStart> starts,
+                         std::span<const RayStart> ends, std::span<bool> blocked) {
+  state_->occluded({rays, starts, ends}, blocked);
+}
+
+void RayQueries::trace_all(const Ray& ray, const RayStart& start, std::vector<FullHit>& out) {
   const core::FloatEnvironment ieee;
   core::answered([&] {
-    core::ask_in_packets(state_->data(), rays, occluded, state_->work(),
-                         [](core::QueryPacket& packet, auto answers) { packet.occluded(answers); });
+    core::Query query = state_->query(ray);
+    query.crossings(core::read_start(state_->data(), start, "start"), state_->found(), out);
+  });
+}
+
+void RayQueries::locate(std::span<const Vec3> points, std::span<Location> locations) {
+  if (locations.size() < points.size()) {
+    throw Error(ErrorCode::invalid_argument, "there are fewer places for answers than points",
+                "points");
+  }
+  const core::FloatEnvironment ieee;
+  core::answered([&] {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!core::is_finite(points[i]))
+        throw Error(ErrorCode::invalid_argument, "points must be finite", "points");
+      const core::Surrounding in = state_->data().innermost(points[i], state_->work());
+      locations[i] = {};
+      if (in.object == core::nothing) continue;
+      const core::Ids ids = state_->data().ids({.object = in.object, .leaf = in.leaf});
+      locations[i] = {.entity_id = ids.entity, .part_id = ids.part, .user = ids.user};
+    }
   });
 }
 
 void RayQueries::crossings(const Ray& ray, std::vector<Hit>& out) {
   const core::FloatEnvironment ieee;
   core::answered([&] { state_->query(ray).crossings(state_->found(), out); });
+}
+
+FullHit trace(const PreparedScene& scene, const Ray& ray, const RayStart& start) {
+  return RayQueries(scene).trace(ray, start);
 }
 
 std::optional<Hit> intersect(const PreparedScene& scene, const Ray& ray) {

@@ -14,6 +14,7 @@
 #include "core/prepare/prepared_data.hpp"
 #include "core/render/hit_faces.hpp"
 #include "core/render/input_rays.hpp"
+#include "core/render/ray_start.hpp"
 #include "crt/query.hpp"
 
 namespace crt::core {
@@ -35,6 +36,22 @@ inline HitPart part_of(const Ids& ids, std::uint32_t face, const SurfacePoint& p
   return {.entity_id = ids.entity, .part_id = ids.part, .face = face, .u = point.u, .v = point.v};
 }
 
+/// Returns all that is known of a hit. `point` is a HitPoint or a SurfacePoint in the world.
+template <class Point>
+FullHit full_hit(double t, const Point& point, const Ids& ids, const RayHit& hit) {
+  return {.t = t,
+          .position = point.position,
+          .normal = point.normal,
+          .u = point.u,
+          .v = point.v,
+          .entity_id = ids.entity,
+          .part_id = ids.part,
+          .face = hit.face,
+          .side = hit.entering ? HitSide::entering : HitSide::leaving,
+          .user = ids.user,
+          .start = start_of(hit)};
+}
+
 /// Distances are where distances are written, and the ids of what was hit, if anybody asks.
 struct Distances {
   std::span<double> t;
@@ -50,13 +67,16 @@ struct Distances {
 /// directions are nearly the same.
 class QueryPacket {
  public:
-  QueryPacket(const PreparedData& data, RayWorkspace& work) : data_(data), work_(work) {}
+  QueryPacket(const PreparedData& data, RayWorkspace& work) : data_(data), work_(work) {
+    rays_.max_size_error = data.input_tolerance().max_size_error;
+  }
 
   /// Takes rays. `next` are to be taken after them, and are prefetched meanwhile.
   void take(std::span<const Ray> rays, std::span<const Ray> next) {
     users_ = rays;
     count_ = rays.size();
     rays_.with_starts = 0;
+    rays_.with_ends = 0;
     std::size_t done = 0;
     for (; done + lane_count <= count_; done += lane_count) {
       // As many are prefetched as are taken, as all at once would be more than can be under way.
@@ -68,18 +88,30 @@ class QueryPacket {
     take_each(rays.subspan(done), done);
   }
 
-  /// Finds nearest hits. An answer is an std::optional<Hit>, a PlainHit or a HitPart.
+  /// Lets the rays begin on the surfaces of hits, where they have a start.
+  void begin_on(std::span<const RayStart> starts) {
+    change_rays(starts, "start", [&](const RayHit& surface, WorldRay& ray) {
+      core::begin_on(data_, surface, ray, work_);
+    });
+  }
+  /// Lets the rays end on the surfaces of hits, where they have an end.
+  void end_on(std::span<const RayStart> ends) {
+    change_rays(ends, "end",
+                [&](const RayHit& surface, WorldRay& ray) { core::end_on(data_, surface, ray); });
+  }
+
+  /// Finds nearest hits. An answer is an std::optional<Hit>, a PlainHit, a HitPart or a FullHit.
   template <class Answer>
   void nearest(std::span<Answer> answers) {
-    data_.intersect_each(rays_, all(), hits_, work_);
+    find_hits();
     data_.prefetch_points(hits_, all());
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
       find_distances(first, count);
       find_sides(first);
       find_points(first);
-      if constexpr (std::is_same_v<Answer, HitPart>) {
-        write_parts(first, answers.subspan(first, count));
+      if constexpr (std::is_same_v<Answer, HitPart> || std::is_same_v<Answer, FullHit>) {
+        write(first, answers.subspan(first, count));
       } else {
         write(answers.subspan(first, count));
       }
@@ -90,7 +122,7 @@ class QueryPacket {
   void nearest(const Distances& answers) {
     FirstLeaves leaves;
     const bool are_resolved = data_.first_leaves(rays_, all(), leaves);
-    if (!are_resolved) data_.intersect_each(rays_, all(), hits_, work_);
+    if (!are_resolved) find_hits();
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t group = first / lane_count;
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
@@ -113,11 +145,31 @@ class QueryPacket {
  private:
   RayMask all() const { return RayPacket::all(count_); }
 
+  void find_hits() {
+    data_.intersect_each(rays_, all(), hits_, work_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (hits_[i].has_coincident) hits_[i] = data_.first_listed(rays_.ray(i), hits_[i], work_);
+    }
+  }
+
+  /// Calls change(surface, ray) for each ray that has a start or end.
+  template <class Change>
+  void change_rays(std::span<const RayStart> starts, const char* argument, const Change& change) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const std::optional<RayHit> surface = read_start(data_, starts[i], argument);
+      if (!surface) continue;
+      WorldRay ray = rays_.ray(i);
+      change(*surface, ray);
+      rays_.set(i, ray);
+    }
+  }
+
   /// Takes rays from `first` on side by side. Returns false if that is not possible for some.
   bool take_group(std::span<const Ray, lane_count> rays, std::size_t first) {
     const UserRays users(rays);
     Lanes factors;
-    if (!core::all(users.plainly_valid()) || !follow(users, first / lane_count, rays_, factors))
+    if (!core::all(users.plainly_valid()) ||
+        !follow(users, data_.input_tolerance(), first / lane_count, rays_, factors))
       return false;
     to_users_t_[first / lane_count] = factors;
     return true;
@@ -127,7 +179,7 @@ class QueryPacket {
       validate(rays[i]);
       const std::size_t index = first + i;
       WorldRay ray;
-      follow(rays[i], ray);
+      follow(rays[i], data_.input_tolerance(), ray);
       const PowerOfTwo shorten(-exponent_of(largest_component(rays[i].direction)));
       to_users_t_[index / lane_count][index % lane_count] = shorten.factor();
       rays_.set(index, ray);
@@ -206,12 +258,19 @@ class QueryPacket {
     }
   }
 
-  void write_parts(std::size_t first, std::span<HitPart> answers) const {
+  /// Writes answers that say on what part a hit is.
+  template <class Answer>
+  void write(std::size_t first, std::span<Answer> answers) const {
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
+      answers[lane] = {};
+      if ((found_ >> lane & 1u) == 0) continue;
       const RayHit& hit = hits_[first + lane];
-      answers[lane] = (found_ >> lane & 1u) == 0
-                          ? HitPart{}
-                          : part_of(data_.ids(hit), hit.face, lane_of(points_, lane));
+      const SurfacePoint point = lane_of(points_, lane);
+      if constexpr (std::is_same_v<Answer, FullHit>) {
+        answers[lane] = full_hit(t_[lane], point, data_.ids(hit), hit);
+      } else {
+        answers[lane] = part_of(data_.ids(hit), hit.face, point);
+      }
     }
   }
 

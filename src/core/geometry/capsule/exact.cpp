@@ -97,7 +97,7 @@ class ExactCapsuleShape final : public ExactShape {
   /// Finds the crossings of a ray that starts on one of the surfaces. Its origin is rounded, so
   /// that the parts need not agree next to a seam.
   bool crossings_from_surface(const ExactRay& ray, CrossingList& out) const {
-    const RayStart& start = ray.near.start;
+    const FaceStart& start = ray.near.start;
     std::array<CapsuleSpan, 3> spans;
     ObjectRay near = ray.near;
     near.first_above = std::numeric_limits<double>::infinity();

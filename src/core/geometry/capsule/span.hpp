@@ -20,7 +20,7 @@ struct CapsuleSpan {
 };
 
 /// Returns where a ray starts, as a part has it. The surface of a part has the number 0 there.
-inline RayStart start_on_part(RayStart start, std::uint32_t part) {
+inline FaceStart start_on_part(FaceStart start, std::uint32_t part) {
   start.face = start.face == part ? 0 : no_face;
   return start;
 }
@@ -63,7 +63,7 @@ inline CapsuleSpan united(const std::array<CapsuleSpan, 3>& parts) {
 /// Makes the span of a ray that starts on a face begin or end there, whatever rounding says next to
 /// a seam. `shortest` is the length in t that remains for a ray that starts into the solid, if
 /// rounding would have it leave at once.
-inline void begin_at_start(const RayStart& start, double shortest, CapsuleSpan& span) {
+inline void begin_at_start(const FaceStart& start, double shortest, CapsuleSpan& span) {
   const bool leaves = start.side == Side::outside;
   const Crossing here{.face = start.face, .root = static_cast<std::uint8_t>(leaves ? 1 : 0)};
   if (leaves) {

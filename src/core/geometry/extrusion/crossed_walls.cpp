@@ -266,7 +266,7 @@ void append_crossings(const Profile& profile, PlaneLine& line, const ExtrusionTi
                       double shortest, CrossingList& out) {
   const std::size_t begin = out.size();
   CrossedWalls(profile, line, tier, out).append();
-  const RayStart& start = line.near().start;
+  const FaceStart& start = line.near().start;
   if (start.face != no_face && start.on_face) {
     const bool is_round =
         start.face >= end_count && profile.wall(wall_of_face(start.face)).arc != Profile::no_arc;

@@ -90,7 +90,7 @@ class ExactFrustumShape final : public ExactShape {
         shortest_(unit_roundoff * std::min(frustum_.wide_radius, largest_component(to - from))) {}
 
   bool crossings(const ExactRay& ray, CrossingList& out) const override {
-    const RayStart& start = ray.near.start;
+    const FaceStart& start = ray.near.start;
     if (start.face == FrustumShape::side_face) return crossings_from_side(ray, out);
     CapMeeting enter;
     CapMeeting leave;
@@ -174,7 +174,7 @@ class ExactFrustumShape final : public ExactShape {
       if (!is_inside || !*is_inside) return is_inside;
     }
     const auto first = *at_enter < 0 ? enter.crossing() : side.root(true, enter, leave);
-    if (first && first->t - first->error > first_above) {
+    if (first && first->t - errors_at_start * first->error > first_above) {
       piece.enter = *first;
       return true;
     }
@@ -185,7 +185,7 @@ class ExactFrustumShape final : public ExactShape {
   }
 
   bool crossings_from_side(const ExactRay& ray, CrossingList& out) const {
-    const RayStart& start = ray.near.start;
+    const FaceStart& start = ray.near.start;
     ClippedSpan span(start, shortest_ / largest_component(ray.near.direction));
     for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
       const ExactPlane::Meeting meeting = caps_[cap].meet(ray);

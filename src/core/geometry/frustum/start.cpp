@@ -19,7 +19,7 @@ void clip_side_from_other_nappe(SideStart& side, ClippedSpan& span) {
 
 }  // namespace
 
-void clip_side_from_surface(SideStart side, const RayStart& start, ClippedSpan& span) {
+void clip_side_from_surface(SideStart side, const FaceStart& start, ClippedSpan& span) {
   constexpr std::uint32_t face = FrustumShape::side_face;
   if (side.radius < 0) return clip_side_from_other_nappe(side, span);
   if (side.a > 0) {

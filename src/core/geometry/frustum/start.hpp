@@ -17,7 +17,7 @@ struct SideStart {
   Crossing other;  ///< t and its error at -2 b / a, if a is not 0
 };
 
-void clip_side_from_surface(SideStart side, const RayStart& start, ClippedSpan& span);
+void clip_side_from_surface(SideStart side, const FaceStart& start, ClippedSpan& span);
 
 inline int sign_of(double x) {
   return x > 0 ? 1 : (x < 0 ? -1 : 0);

@@ -104,7 +104,7 @@ class FieldCrossings {
 
 void find_roots(const FieldRay& field_ray, const Crossing& enter, const Crossing& leave,
                 const FieldSpan& span, FieldSearch& search) {
-  const RayStart& start = field_ray.ray.start;
+  const FaceStart& start = field_ray.ray.start;
   if (start.face == 0) {
     if (span.begins_within) {
       search.know(0, start.side == Side::outside);

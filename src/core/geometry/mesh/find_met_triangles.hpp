@@ -313,7 +313,7 @@ bool MetTriangles<Triangles>::is_through_origin(const Crossing& crossing) const 
 /// not meet its own either. Returns false where that may take what was left out.
 template <class Triangles>
 bool MetTriangles<Triangles>::agree_with_start() {
-  const RayStart& start = ray_.start;
+  const FaceStart& start = ray_.start;
   const auto is_start = [&](const Crossing& crossing) { return starts_on(crossing.face); };
   auto found = std::find_if(first(), list_.end(), is_start);
   if (found == list_.end()) {

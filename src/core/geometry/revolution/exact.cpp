@@ -32,7 +32,7 @@ class ExactTier final : public RevolutionTier {
   ExactTier(const TurnedProfile& turned, const ExactBodies& bodies, const ExactRay& ray)
       : turned_(turned), bodies_(bodies), ray_(ray) {}
 
-  bool meet(std::uint32_t body, const RayStart&, CrossingList& out) const override {
+  bool meet(std::uint32_t body, const FaceStart&, CrossingList& out) const override {
     ObjectRay near;
     return bodies_[body]->crossings(started_on(turned_, body, ray_, near), out);
   }

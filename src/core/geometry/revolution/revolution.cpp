@@ -20,7 +20,7 @@ class StandardTier final : public RevolutionTier {
   StandardTier(const std::vector<std::unique_ptr<const Shape>>& bodies, const ObjectRay& ray)
       : bodies_(bodies), ray_(ray) {}
 
-  bool meet(std::uint32_t body, const RayStart& start, CrossingList& out) const override {
+  bool meet(std::uint32_t body, const FaceStart& start, CrossingList& out) const override {
     ObjectRay ray = ray_;
     ray.start = start;
     ray.begin = -std::numeric_limits<double>::infinity();

@@ -112,12 +112,12 @@ Bounds TurnedProfile::bounds() const {
   return result;
 }
 
-RayStart TurnedProfile::start_on(std::uint32_t body, const RayStart& start) const {
+FaceStart TurnedProfile::start_on(std::uint32_t body, const FaceStart& start) const {
   if (start.face == no_face) return {};
-  RayStart result{.face = 0, .side = start.side, .on_face = start.on_face};
+  FaceStart result{.face = 0, .side = start.side, .on_face = start.on_face};
   if (start.face < end_count || body < end_count) {
     const bool is_on_end = start.face < end_count && plane_of_end(start.face) == body;
-    return is_on_end ? result : RayStart{};
+    return is_on_end ? result : FaceStart{};
   }
   const std::uint32_t wall = body - end_count;
   if (!are_on_one_surface(*profile, face_of_wall(wall, false), start.face)) return {};

@@ -152,7 +152,7 @@ bool TurnedWalls::meet_wall(std::uint32_t number) {
   const Profile::Piece& piece = profile_.pieces()[number];
   if (piece.arc == Profile::no_arc && TurnedProfile::is_on_axis(piece)) return true;
   const std::uint32_t body = end_count + number;
-  const RayStart start = turned_.start_on(body, ray_.start);
+  const FaceStart start = turned_.start_on(body, ray_.start);
   met_.clear();
   tier_.meet(body, start, met_);
   for (const Crossing& crossing : met_) {
@@ -221,7 +221,7 @@ void TurnedWalls::meet_ends() {
 /// the others are those that are left.
 void TurnedWalls::give_start(std::uint32_t wall, Crossing& crossing) {
   const std::uint32_t body = end_count + wall;
-  const RayStart start = turned_.start_on(body, ray_.start);
+  const FaceStart start = turned_.start_on(body, ray_.start);
   met_.clear();
   tier_.meet(body, start, met_);
   for (const Crossing& met : met_) {

@@ -50,7 +50,7 @@ struct TurnedProfile {
   Bounds bounds() const;
 
   /// Returns the start of a ray as a body has it. It is none if the ray starts elsewhere.
-  RayStart start_on(std::uint32_t body, const RayStart& start) const;
+  FaceStart start_on(std::uint32_t body, const FaceStart& start) const;
   static bool is_on_axis(const Profile::Piece& piece) {
     return piece.from.x == 0 && piece.to.x == 0;
   }
@@ -70,7 +70,7 @@ class RevolutionTier {
   virtual ~RevolutionTier() = default;
 
   /// Appends where the line crosses a body, as Shape::crossings() does.
-  virtual bool meet(std::uint32_t body, const RayStart& start, CrossingList& out) const = 0;
+  virtual bool meet(std::uint32_t body, const FaceStart& start, CrossingList& out) const = 0;
   /// Returns the sign of the first t less the second, and 0 if they are equal.
   virtual int order(const Crossing& first, const Crossing& second) const = 0;
   /// Returns the line as the tier has it, without rounding.
