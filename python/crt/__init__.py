@@ -25,7 +25,7 @@ from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Stat
 from .expressions import Expression
 from .images import Image
 from .jobs import Job
-from .meshes import Mesh, load_mesh
+from .meshes import Mesh, MeshReport, load_mesh, mesh_report
 from .notebooks import Live
 from .primitives import (
     Blob,
