@@ -567,9 +567,9 @@ typedef struct crt_mesh {
 
 /**
  * Makes a mesh by a rule that says what is inside, otherwise as crt_mesh_create() does. By
- * CRT_FILL_NONZERO it is every point that the triangles go about more often in one direction than in
- * the other, so that parts which overlap are one solid. The mesh is a solid then if each edge runs
- * as often in one direction as in the other. Since 1.1.
+ * CRT_FILL_NONZERO it is every point that the triangles go about more often in one direction than
+ * in the other, so that parts which overlap are one solid. The mesh is a solid then if each edge
+ * runs as often in one direction as in the other. Since 1.1.
  * @param rule  CRT_FILL_EVEN_ODD, as crt_mesh_create() has it, or CRT_FILL_NONZERO
  */
 CRT_API crt_status crt_mesh_from_triangles_rule(const double* positions, size_t vertex_count,

@@ -87,7 +87,7 @@ struct MeshReport {
   /// These say, a line each, what most likely was not meant, what of a file was left out, and what
   /// `weld` and `stitch` have done.
   std::vector<std::string> warnings{};
-  bool told = false;  ///< MeshOptions::warn has had the warnings
+  bool reported = false;  ///< MeshOptions::warn has had the warnings
 };
 
 /// Returns what is known of the triangles of a mesh.

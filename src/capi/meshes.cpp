@@ -133,8 +133,7 @@ crt_status crt_mesh_from_triangles_rule(const double* positions, size_t vertex_c
     require(indices, "indices");
     const auto fill = to_enum(rule, crt::FillRule::even_odd, "rule", "crt_fill_rule");
     return crt::triangle_mesh(to_vectors(positions, vertex_count, "positions"),
-                              to_triangles(indices, triangle_count, "indices"), {},
-                              {.fill = fill});
+                              to_triangles(indices, triangle_count, "indices"), {}, {.fill = fill});
   });
 }
 

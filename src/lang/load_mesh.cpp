@@ -8,8 +8,7 @@ Entity load_mesh(const std::filesystem::path& path, const ScriptOptions& options
                  std::optional<double> smooth, const MeshOptions& mesh) {
   lang::Files files(options);
   try {
-    return *files.mesh(path.string(), {}, {}, {smooth, mesh.fill, mesh.weld, mesh.stitch},
-                       nullptr);
+    return *files.mesh(path.string(), {}, {}, {smooth, mesh.fill, mesh.weld, mesh.stitch}, nullptr);
   } catch (const lang::Failure& failure) {
     throw Error(failure.code, failure.message);
   }

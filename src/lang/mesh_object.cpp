@@ -1,9 +1,13 @@
 #include "lang/mesh_object.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "crt/error.hpp"
 #include "crt/mesh.hpp"
 #include "lang/object_builder.hpp"
 
@@ -24,6 +28,14 @@ struct MeshOfFile {
 Value finish_mesh(MeshOfFile mesh, const ObjectSite& site) {
   if (mesh.smooth && !(*mesh.smooth >= 0 && *mesh.smooth <= std::numbers::pi))
     throw Error(ErrorCode::invalid_argument, "smooth must be from 0 to 180 degrees", "smooth");
+  constexpr double largest = 1e100;
+  for (const auto& [name, distance] :
+       {std::pair{"weld", mesh.weld}, std::pair{"stitch", mesh.stitch}}) {
+    if (!(distance >= 0 && distance <= largest)) {
+      throw Error(ErrorCode::invalid_argument, fmt::format("{} must be from 0 to 1e100", name),
+                  name);
+    }
+  }
   Context& context = site.context;
   context.count_made(site.name_span);
   const auto& [name, directory, span] = mesh.file;

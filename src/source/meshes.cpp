@@ -124,8 +124,7 @@ class MeshWriter {
     const Syntax& syntax = program_.syntax();
     const bool is_nonzero = parts_.fill == FillRule::nonzero;
     if (syntax.is_cpp()) {
-      const std::string all =
-          fields_.all().empty() ? "" : fields_.constructed("MeshAttributes");
+      const std::string all = fields_.all().empty() ? "" : fields_.constructed("MeshAttributes");
       if (is_nonzero) {
         return program_.define(
             "mesh", "auto",
@@ -133,11 +132,11 @@ class MeshWriter {
                         "FillRule::nonzero}})",
                         positions, triangles, all.empty() ? "MeshAttributes{}" : all));
       }
-      return program_.define("mesh", "auto",
-                             all.empty()
-                                 ? fmt::format("mesh_triangles({}, {})", positions, triangles)
-                                 : fmt::format("mesh_triangles({}, {},\n      {})", positions,
-                                               triangles, all));
+      return program_.define(
+          "mesh", "auto",
+          all.empty()
+              ? fmt::format("mesh_triangles({}, {})", positions, triangles)
+              : fmt::format("mesh_triangles({}, {},\n      {})", positions, triangles, all));
     }
     Fields all(syntax);
     all.add_text("", "positions", positions);
@@ -211,9 +210,8 @@ class MeshWriter {
 
 /// Returns the attribute that a script needs for the rule of a mesh, if its file has another one.
 std::string fill_text(const MeshParts& parts) {
-  const MeshFile file{.positions = parts.positions,
-                      .triangles = parts.triangles,
-                      .attributes = parts.attributes};
+  const MeshFile file{
+      .positions = parts.positions, .triangles = parts.triangles, .attributes = parts.attributes};
   if (mesh_report(load_mesh(file, ""))->fill == parts.fill) return "";
   return parts.fill == FillRule::nonzero ? " fill -> \"nonzero\"" : " fill -> \"evenodd\"";
 }
@@ -227,9 +225,9 @@ std::string mesh_value(Program& program, const Mesh& mesh) {
     if (!is_script) program.require_space(std::size_t{3} * mesh.triangles->size());
     const MeshParts parts = parts_of(*mesh.triangles);
     check_parts(parts, *mesh.triangles);
-    name = program.remember(mesh.triangles.get(), is_script
-                                                      ? obj_file_name(program, parts) + fill_text(parts)
-                                                      : MeshWriter(program, parts).write());
+    name = program.remember(mesh.triangles.get(),
+                            is_script ? obj_file_name(program, parts) + fill_text(parts)
+                                      : MeshWriter(program, parts).write());
   }
   if (program.syntax().is_c()) return name;
   const std::string material = mesh.material ? material_name(program, *mesh.material) : "";

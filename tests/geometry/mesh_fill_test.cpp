@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "core/geometry/exact_shape.hpp"
-#include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/shape.hpp"
 #include "crt/error.hpp"
 #include "crt/mesh.hpp"
@@ -17,6 +16,7 @@
 #include "crt/query.hpp"
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
+#include "geometry/cuboids.hpp"
 #include "geometry/line_checks.hpp"
 #include "geometry/meshes.hpp"
 
@@ -35,23 +35,6 @@ PreparedScene scene_of(const Entity& entity, Precision precision = Precision::st
   return prepare(scene);
 }
 
-/// Adds the twelve triangles of a box, turned outwards or not.
-void add_box(TriangleList& list, const Vec3& lower, const Vec3& upper, bool outwards = true) {
-  const auto first = static_cast<std::uint32_t>(list.positions.size());
-  for (int i = 0; i < 8; ++i) {
-    list.positions.emplace_back((i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y,
-                                (i & 4) != 0 ? upper.z : lower.z);
-  }
-  constexpr std::array<std::array<std::uint32_t, 4>, 6> sides = {
-      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-  for (const auto& [a, b, c, d] : sides) {
-    for (const auto& [p, q, r] : {TriangleIndices{a, b, c}, TriangleIndices{a, c, d}}) {
-      list.triangles.push_back(outwards ? TriangleIndices{first + p, first + q, first + r}
-                                        : TriangleIndices{first + p, first + r, first + q});
-    }
-  }
-}
-
 void add(TriangleList& list, const TriangleList& other, const Vec3& place, double scale) {
   const auto first = static_cast<std::uint32_t>(list.positions.size());
   for (const Vec3& position : other.positions) list.positions.push_back(place + scale * position);
@@ -61,10 +44,6 @@ void add(TriangleList& list, const TriangleList& other, const Vec3& place, doubl
 
 Entity filled(const TriangleList& list, FillRule fill) {
   return triangle_mesh(list.positions, list.triangles, {}, {.fill = fill});
-}
-
-MeshReport report_of(const TriangleList& list, const MeshOptions& options) {
-  return mesh_report(*mesh_triangles(list.positions, list.triangles, {}, options));
 }
 
 /// Checks that a line enters and leaves by turns. Normals of shells in one another may say less.
@@ -82,45 +61,6 @@ std::vector<double> places(const Entity& entity, Precision tier, const Ray& ray)
   check_alternation(hits);
   for (const Hit& hit : hits) result.push_back(hit.t);
   return result;
-}
-
-/// A Cuboid is a box of whole numbers, with how often it is gone about.
-struct Cuboid {
-  std::array<int, 3> lower;
-  std::array<int, 3> upper;
-  bool outwards;
-
-  /// Says whether a point is inside. Points on faces are as those at somewhat higher coordinates,
-  /// as lines in faces are moved to there (passing_line.hpp).
-  bool holds(const Vec3& point) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      if (point[axis] < lower[i] || point[axis] >= upper[i]) return false;
-    }
-    return true;
-  }
-};
-
-/// Returns some boxes on a grid, most of which overlap, touch or lie in one another.
-std::vector<Cuboid> random_cuboids(Random& random, bool some_inwards) {
-  std::vector<Cuboid> boxes(2 + random.bits() % 5);
-  for (Cuboid& box : boxes) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.lower[axis] = static_cast<int>(random.bits() % 4);
-      box.upper[axis] = box.lower[axis] + 1 + static_cast<int>(random.bits() % 3);
-    }
-    box.outwards = !some_inwards || !random.one_in(3);
-  }
-  return boxes;
-}
-
-TriangleList mesh_of(const std::vector<Cuboid>& boxes) {
-  TriangleList list;
-  for (const Cuboid& box : boxes) {
-    const auto corner = [](const std::array<int, 3>& c) { return Vec3(c[0], c[1], c[2]); };
-    add_box(list, corner(box.lower), corner(box.upper), box.outwards);
-  }
-  return list;
 }
 
 bool is_inside(const std::vector<Cuboid>& boxes, const Vec3& point, FillRule rule) {
@@ -204,7 +144,9 @@ TEST_CASE("boxes on a grid are inside where their windings say, through CSG and 
         for (int i = 0; i < 40; ++i) {
           Ray ray{.origin = Vec3(3) + 8.0 * random.direction()};
           ray.direction = 6.0 * random.in_cube() + Vec3(0.5) - ray.origin;
-          if (random.one_in(2)) ray.direction = Vec3(random.bits() % 6, random.bits() % 6, random.bits() % 6) - ray.origin;
+          if (random.one_in(2))
+            ray.direction =
+                Vec3(random.bits() % 6, random.bits() % 6, random.bits() % 6) - ray.origin;
           const std::vector<Hit> hits = crossings(scene, ray);
           check_alternation(hits);
           REQUIRE(occluded(scene, ray) == !hits.empty());
@@ -224,8 +166,8 @@ TEST_CASE("boxes on a grid are inside where their windings say, through CSG and 
             const double t = 0.5 * (at[k] + at[k + 1]);
             const Vec3 point = ray.origin + t * ray.direction;
             const bool expected = is_inside(boxes, point, rule) && !(is_cut && cutter.holds(point));
-            const auto before = std::count_if(hits.begin(), hits.end(),
-                                              [&](const Hit& hit) { return hit.t < t; });
+            const auto before =
+                std::count_if(hits.begin(), hits.end(), [&](const Hit& hit) { return hit.t < t; });
             REQUIRE((before % 2 != 0) == expected);
             inside += expected ? 1 : 0;
           }
@@ -244,8 +186,8 @@ TEST_CASE("what is left out after the first crossing changes nothing where windi
     const int count = 2 + round % 4;
     for (int i = 0; i < count; ++i)
       add(mesh, ball_mesh(random, 4, 0.1), 0.8 * random.in_cube(), random.uniform(0.2, 1));
-    const Primitive primitive =
-        Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles, {}, {.fill = FillRule::nonzero})};
+    const Primitive primitive = Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles, {},
+                                                                 {.fill = FillRule::nonzero})};
     const auto shape = core::make_shape(primitive);
     const auto exact = core::make_exact_shape(primitive);
     for (int i = 0; i < 100; ++i) {
@@ -276,7 +218,8 @@ TEST_CASE("what is left out after the first crossing changes nothing where windi
   CHECK(ended > 500);
 }
 
-TEST_CASE("rays that start on a mesh of overlapping parts are inside if they leave into the solid") {
+TEST_CASE(
+    "rays that start on a mesh of overlapping parts are inside if they leave into the solid") {
   Random random(23);
   int starts = 0;
   for (int round = 0; round < 60; ++round) {
@@ -284,11 +227,12 @@ TEST_CASE("rays that start on a mesh of overlapping parts are inside if they lea
     for (int i = 0; i < 3; ++i)
       add(mesh, ball_mesh(random, 3, 0.1), 0.7 * random.in_cube(), random.uniform(0.3, 1));
     if (round % 3 == 0) mesh = mesh_of(random_cuboids(random, false));
-    const Primitive primitive =
-        Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles, {}, {.fill = FillRule::nonzero})};
+    const Primitive primitive = Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles, {},
+                                                                 {.fill = FillRule::nonzero})};
     const auto shape = core::make_shape(primitive);
     for (int i = 0; i < 200; ++i) {
-      const core::ObjectRay ray{.origin = 9.0 * random.direction(), .direction = random.direction()};
+      const core::ObjectRay ray{.origin = 9.0 * random.direction(),
+                                .direction = random.direction()};
       core::ObjectRay aimed = ray;
       aimed.direction = mesh.positions[random.bits() % mesh.positions.size()] +
                         0.3 * random.in_cube() - ray.origin;
@@ -343,7 +287,8 @@ TEST_CASE("meshes without overlaps have the same bits by both rules") {
   }
 }
 
-TEST_CASE("boxes that touch within rounding have no gap by the nonzero rule, turned as they may be") {
+TEST_CASE(
+    "boxes that touch within rounding have no gap by the nonzero rule, turned as they may be") {
   Random random(25);
   int touched = 0;
   for (int round = 0; round < 40; ++round) {
@@ -355,7 +300,8 @@ TEST_CASE("boxes that touch within rounding have no gap by the nonzero rule, tur
       position = p.x * turned.row_x + p.y * turned.row_y + p.z * turned.row_z;
     }
     const PreparedScene scene = scene_of(filled(row, FillRule::nonzero));
-    const Vec3 middle = Vec3(0.3) * turned.row_x + Vec3(0.05) * turned.row_y + Vec3(0.05) * turned.row_z;
+    const Vec3 middle =
+        Vec3(0.3) * turned.row_x + Vec3(0.05) * turned.row_y + Vec3(0.05) * turned.row_z;
     for (int i = 0; i < 50; ++i) {
       const Vec3 aim = middle + 0.02 * random.in_cube();
       Ray ray{.origin = middle + 3.0 * turned.row_x, .direction = {}};
@@ -369,51 +315,6 @@ TEST_CASE("boxes that touch within rounding have no gap by the nonzero rule, tur
   CHECK(touched == 2000);
 }
 
-TEST_CASE("shells in others and shells that overlap are counted, and one of the places is told") {
-  const auto overlap = [](const TriangleList& list) { return report_of(list, {}); };
-  const std::vector<Cuboid> apart = {{{0, 0, 0}, {1, 1, 1}, true}, {{2, 0, 0}, {3, 1, 1}, true}};
-  CHECK(overlap(mesh_of(apart)).shells == 2);
-  CHECK(overlap(mesh_of(apart)).overlapping_shells == 0);
-  CHECK(overlap(mesh_of(apart)).warnings.empty());
-  const std::vector<Cuboid> touching = {{{0, 0, 0}, {1, 2, 1}, true}, {{1, 1, 0}, {3, 3, 1}, true}};
-  CHECK(overlap(mesh_of(touching)).overlapping_shells == 0);
-  const std::vector<Cuboid> nested = {{{0, 0, 0}, {4, 4, 4}, true}, {{1, 1, 1}, {2, 2, 2}, true}};
-  const MeshReport in_another = overlap(mesh_of(nested));
-  CHECK(in_another.overlapping_shells == 1);
-  CHECK(nested[1].holds(in_another.first_overlap));
-  REQUIRE(in_another.warnings.size() == 1);
-  CHECK(in_another.warnings[0].starts_with("1 of its 2 shells lie in others or overlap, the first"));
-  CHECK(in_another.warnings[0].ends_with("by 'evenodd' what two of them share is hollow"));
-  const std::vector<Cuboid> hollow = {{{0, 0, 0}, {4, 4, 4}, true}, {{1, 1, 1}, {2, 2, 2}, false}};
-  CHECK(overlap(mesh_of(hollow)).overlapping_shells == 0);
-  const std::vector<Cuboid> chain = {{{0, 0, 0}, {2, 2, 2}, true}, {{1, 1, 1}, {3, 3, 3}, true}};
-  const MeshReport overlapping = overlap(mesh_of(chain));
-  CHECK(overlapping.overlapping_shells == 2);
-  CHECK(chain[0].holds(overlapping.first_overlap));
-  CHECK(chain[1].holds(overlapping.first_overlap));
-  const std::vector<Cuboid> flush = {{{0, 0, 0}, {2, 1, 1}, true}, {{1, 0, 0}, {3, 1, 1}, true}};
-  CHECK(overlap(mesh_of(flush)).overlapping_shells == 2);
-}
-
-TEST_CASE("random boxes are told to overlap if and only if they do") {
-  Random random(26);
-  int told = 0;
-  for (int round = 0; round < 200; ++round) {
-    std::vector<Cuboid> boxes = random_cuboids(random, false);
-    boxes.resize(2);
-    const auto share = [&](std::size_t axis) {
-      return std::min(boxes[0].upper[axis], boxes[1].upper[axis]) >
-             std::max(boxes[0].lower[axis], boxes[1].lower[axis]);
-    };
-    const bool overlap = share(0) && share(1) && share(2);
-    const bool equal = boxes[0].lower == boxes[1].lower && boxes[0].upper == boxes[1].upper;
-    const MeshReport report = report_of(mesh_of(boxes), {});
-    CHECK((report.overlapping_shells > 0 || equal) == overlap);
-    told += overlap ? 1 : 0;
-  }
-  CHECK(told > 30);
-}
-
 TEST_CASE("by the nonzero rule a mesh whose edges are not turned alike is a surface, and says so") {
   TriangleList list;
   add_box(list, {0, 0, 0}, {1, 1, 1});
@@ -423,28 +324,4 @@ TEST_CASE("by the nonzero rule a mesh whose edges are not turned alike is a surf
   CHECK_FALSE(entity.is_solid());
   CHECK(entity.solid_fault().starts_with(
       "a mesh is open: 3 of its 18 edges run more often in one direction than in the other"));
-}
-
-TEST_CASE("warnings go to who asks for them, and else come with the prepared scene") {
-  TriangleList list;
-  add_box(list, {0, 0, 0}, {4, 4, 4});
-  add_box(list, {1, 1, 1}, {2, 2, 2});
-  std::vector<std::string> told;
-  const Entity asked = triangle_mesh(
-      list.positions, list.triangles, {},
-      {.warn = [&](const std::string& warning) { told.push_back(warning); }});
-  CHECK(told.size() == 1);
-  const auto about_meshes = [](const Entity& entity) {
-    Scene scene;
-    for (int i = 0; i < 20; ++i)
-      scene.entities.push_back(entity.transformed(translate({9.0 * i, 0, 0})));
-    const std::vector<std::string> warnings = prepare(scene).warnings();
-    return std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
-      return warning.starts_with("a mesh: 1 of its 2 shells");
-    });
-  };
-  CHECK(about_meshes(asked) == 0);
-  CHECK(about_meshes(list.entity()) == 1);
-  CHECK(mesh_report(list.entity().transformed(translate({1, 0, 0})))->shells == 2);
-  CHECK(mesh_report(Entity(Sphere{})) == nullptr);
 }

@@ -14,16 +14,13 @@
 #include "crt/prepared_scene.hpp"
 #include "crt/query.hpp"
 #include "crt/scene.hpp"
+#include "geometry/cuboids.hpp"
 #include "geometry/meshes.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-MeshReport report_of(const TriangleList& list, const MeshOptions& options) {
-  return mesh_report(*mesh_triangles(list.positions, list.triangles, {}, options));
-}
 
 bool is_solid(const TriangleList& list, const MeshOptions& options) {
   return triangle_mesh(list.positions, list.triangles, {}, options).is_solid();
@@ -136,8 +133,7 @@ TEST_CASE("stitch closes T-junctions, and moves nothing") {
     const PreparedScene prepared = prepare(scene);
     for (int i = 0; i < 20; ++i) {
       const Vec3 aim{random.uniform(0.01, 0.99), random.uniform(0.01, 0.99), -1};
-      const std::vector<Hit> hits =
-          crossings(prepared, {.origin = aim, .direction = {0, 0, 1}});
+      const std::vector<Hit> hits = crossings(prepared, {.origin = aim, .direction = {0, 0, 1}});
       REQUIRE(hits.size() == 2);
       CHECK(hits[0].t == doctest::Approx(1).epsilon(1e-8));
       CHECK(hits[1].t == doctest::Approx(2).epsilon(1e-8));
@@ -154,11 +150,11 @@ TEST_CASE("what is divided off has the attributes in between") {
   MeshAttributes attributes;
   attributes.uv = {{0, 0}, {4, 8}, {1, 2}, {2, 3}, {2, -3}};
   attributes.normals = {{0, 0, 1}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}};
-  attributes.materials = {SharedMaterial(Material{}), SharedMaterial(Material{.reflectivity = 0.5})};
+  attributes.materials = {SharedMaterial(Material{}),
+                          SharedMaterial(Material{.reflectivity = 0.5})};
   attributes.material_of_triangle = {0, 0, 1};
-  core::RepairedMesh mesh{.positions = list.positions,
-                          .triangles = list.triangles,
-                          .attributes = attributes};
+  core::RepairedMesh mesh{
+      .positions = list.positions, .triangles = list.triangles, .attributes = attributes};
   mesh.attributes.normal_indices = mesh.attributes.uv_indices = list.triangles;
   CHECK(core::stitch(mesh, 1e-9) == 1);
   // The part towards the begin of the edge stays, and the other one is appended.

@@ -35,7 +35,8 @@ TEST_CASE("without the word OFF a file is read if its name says that it is one, 
     CHECK(file.format == MeshFormat::off);
     CHECK(file.triangles == square);
     REQUIRE(file.warnings.size() == 1);
-    CHECK(file.warnings[0].ends_with("it does not begin with the word OFF, but is read as if it did"));
+    CHECK(file.warnings[0].ends_with(
+        "it does not begin with the word OFF, but is read as if it did"));
   }
   CHECK(decode("OFF\n4 1 4\n" + rows).warnings.empty());
   CHECK(decode_error("4 1 4\n" + rows, "a.mesh") == "it is no OBJ, PLY, STL, 3MF or OFF file");

@@ -88,8 +88,7 @@ Entity load_mesh(const MeshFile& file, const std::string& name, const MeshOption
   try {
     const GivenMesh given{file.positions, file.triangles, file.attributes};
     MeshReport report{.name = name, .warnings = file.warnings};
-    return Mesh{.triangles =
-                    make_mesh_triangles(given, options, options.fill, std::move(report))};
+    return Mesh{.triangles = make_mesh_triangles(given, options, options.fill, std::move(report))};
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("cannot make a mesh of '{}': {}", name, error.what()),
                 error.argument());

@@ -131,8 +131,7 @@ class PlyReader {
     }
     if (!has_vertices) throw RefusedMesh("it has no element 'vertex'");
     if (!has_faces) {
-      throw RefusedMesh(
-          "it has no element 'face' or 'tristrips', so it has points and no surface");
+      throw RefusedMesh("it has no element 'face' or 'tristrips', so it has points and no surface");
     }
     if (!rows_.at_end()) rows_.refuse("after this there is more than the header says");
   }

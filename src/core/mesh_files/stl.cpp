@@ -73,9 +73,10 @@ void read_text(std::string_view content, MeshBuilder& mesh) {
   for (bool is_first = true; !cursor.at_end(); is_first = false) {
     const std::string_view begin = cursor.word();
     if (!is_first && !is_word(begin, "solid")) {
-      mesh.warn(fmt::format("line {}: here is {} where solid or the end should be: it is left out, "
-                            "with all that follows",
-                            cursor.line(), in_quotes(begin)));
+      mesh.warn(
+          fmt::format("line {}: here is {} where solid or the end should be: it is left out, "
+                      "with all that follows",
+                      cursor.line(), in_quotes(begin)));
       return;
     }
     if (!is_word(begin, "solid")) refuse_word(cursor, begin, "solid");
@@ -107,7 +108,8 @@ std::size_t triangle_count(std::string_view content, MeshBuilder& mesh) {
   const bool says_nothing = claimed == 0 || claimed == 0xffffffff;
   // What has less than half of what it says is more likely no STL file at all.
   if (!says_nothing && claimed > 2 * places) refuse_byte(stl_header_size, fault);
-  const std::size_t read = is_whole ? places : std::min<std::size_t>(says_nothing ? places : claimed, places);
+  const std::size_t read =
+      is_whole ? places : std::min<std::size_t>(says_nothing ? places : claimed, places);
   mesh.warn(fmt::format("byte {}: {}: it is read as {}", stl_header_size, fault, read));
   return read;
 }

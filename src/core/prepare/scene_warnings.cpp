@@ -57,18 +57,18 @@ const MeshTriangles* untold_mesh(const Leaf& leaf) {
   const auto* const mesh = dynamic_cast<const MeshShape*>(leaf.shape.get());
   if (mesh == nullptr) return nullptr;
   const MeshReport& report = mesh->triangles().report();
-  return report.told || report.warnings.empty() ? nullptr : &mesh->triangles();
+  return report.reported || report.warnings.empty() ? nullptr : &mesh->triangles();
 }
 
 }  // namespace
 
 /// Tells what is known of meshes that programs have made, once for each.
 void PreparedData::warn_of_meshes() {
-  std::set<const MeshTriangles*> told;
+  std::set<const MeshTriangles*> seen;
   const auto warn_of = [&](const std::vector<Leaf>& leaves) {
     for (const Leaf& leaf : leaves) {
       const MeshTriangles* const mesh = untold_mesh(leaf);
-      if (mesh == nullptr || !told.insert(mesh).second) continue;
+      if (mesh == nullptr || !seen.insert(mesh).second) continue;
       const MeshReport& report = mesh->report();
       const std::string name = report.name.empty() ? "a mesh" : fmt::format("'{}'", report.name);
       for (const std::string& warning : report.warnings)

@@ -17,9 +17,8 @@ namespace crt::core {
 template <class Triangles>
 int MetTriangles<Triangles>::winding_at_begin() const {
   const int at_begin = rest_winding_ - turns_of(std::span(first(), list_.end()));
-  const auto start = std::find_if(first(), list_.end(), [this](const Crossing& crossing) {
-    return starts_on(crossing.face);
-  });
+  const auto start = std::find_if(
+      first(), list_.end(), [this](const Crossing& crossing) { return starts_on(crossing.face); });
   if (start == list_.end()) return at_begin;
   int behind = 0;
   int after = rest_winding_;
@@ -40,7 +39,8 @@ void MetTriangles<Triangles>::close_gaps() {
   for (auto met = first(); met != list_.end(); ++met) {
     if (kept != first() && met->entering) {
       const Crossing& before = *(kept - 1);
-      const double reach = std::min(before.error, most_overlap_) + std::min(met->error, most_overlap_);
+      const double reach =
+          std::min(before.error, most_overlap_) + std::min(met->error, most_overlap_);
       if (!starts_on(before.face) && !starts_on(met->face) && met->t - before.t <= reach &&
           !tier_.is_exact()) {
         --kept;

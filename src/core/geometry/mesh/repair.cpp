@@ -59,7 +59,7 @@ std::shared_ptr<const MeshTriangles> make_mesh_triangles(const GivenMesh& given,
   check_distance("stitch", options.stitch);
   if (fill && *fill != FillRule::nonzero && *fill != FillRule::even_odd)
     reject("fill", "must be FillRule::nonzero or FillRule::even_odd");
-  report.told = options.warn != nullptr;
+  report.reported = options.warn != nullptr;
   std::shared_ptr<const MeshTriangles> result;
   if (options.weld == 0 && options.stitch == 0) {
     result = std::make_shared<const MeshTriangles>(given.positions, given.triangles,
@@ -78,8 +78,8 @@ std::shared_ptr<const MeshTriangles> make_mesh_triangles(const GivenMesh& given,
       report.warnings.push_back(
           fmt::format("stitch has put {} vertices into edges", report.stitched_vertices));
     }
-    result = std::make_shared<const MeshTriangles>(mesh.positions, mesh.triangles,
-                                                   &mesh.attributes, fill, std::move(report));
+    result = std::make_shared<const MeshTriangles>(mesh.positions, mesh.triangles, &mesh.attributes,
+                                                   fill, std::move(report));
   }
   if (!options.warn) return result;
   for (const std::string& warning : result->report().warnings) options.warn(warning);

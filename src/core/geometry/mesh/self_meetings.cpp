@@ -172,8 +172,7 @@ void SelfMeetings::test(const MeshCorners& one, const MeshCorners& other) {
 void SelfMeetings::lower(std::uint32_t triangle, std::uint32_t met) {
   std::atomic<std::uint32_t>& lowest = lowest_met_[triangle];
   std::uint32_t before = lowest.load(std::memory_order_relaxed);
-  while (met < before &&
-         !lowest.compare_exchange_weak(before, met, std::memory_order_relaxed)) {
+  while (met < before && !lowest.compare_exchange_weak(before, met, std::memory_order_relaxed)) {
   }
 }
 

@@ -170,11 +170,11 @@ void add_mesh_warnings(const MeshTriangles& mesh, const MeshEdges& edges, MeshRe
   if (!mesh.is_closed()) return;
   const bool is_nonzero = report.fill == FillRule::nonzero;
   if (report.repeated_triangles > 0) {
-    report.warnings.push_back(fmt::format(
-        "{} of its {} triangles repeat others, the first at {}: {}", report.repeated_triangles,
-        mesh.size(), place_text(report.first_repeated),
-        is_nonzero ? "by 'nonzero' they change nothing if they are turned the same way"
-                   : "by 'evenodd' they enclose nothing together with those"));
+    report.warnings.push_back(
+        fmt::format("{} of its {} triangles repeat others, the first at {}: {}",
+                    report.repeated_triangles, mesh.size(), place_text(report.first_repeated),
+                    is_nonzero ? "by 'nonzero' they change nothing if they are turned the same way"
+                               : "by 'evenodd' they enclose nothing together with those"));
   }
   if (report.overlapping_shells > 0) {
     report.warnings.push_back(

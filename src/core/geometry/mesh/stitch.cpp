@@ -40,8 +40,8 @@ std::vector<OpenEdge> open_edges(std::span<const TriangleIndices> triangles) {
   std::sort(edges.begin(), edges.end());
   auto kept = edges.begin();
   for (auto begin = edges.begin(); begin != edges.end();) {
-    const auto end = std::find_if(
-        begin, edges.end(), [&](const OpenEdge& edge) { return !edge.has_ends_of(*begin); });
+    const auto end = std::find_if(begin, edges.end(),
+                                  [&](const OpenEdge& edge) { return !edge.has_ends_of(*begin); });
     if ((end - begin) % 2 != 0) kept = std::copy(begin, end, kept);
     begin = end;
   }
@@ -62,8 +62,7 @@ struct Stop {
 /// A VertexTree finds vertices near a straight line.
 class VertexTree {
  public:
-  VertexTree(std::span<const Vec3> positions, std::vector<std::uint32_t> vertices,
-             double tolerance)
+  VertexTree(std::span<const Vec3> positions, std::vector<std::uint32_t> vertices, double tolerance)
       : positions_(positions), vertices_(std::move(vertices)), tolerance_(tolerance) {
     std::vector<Bounds> boxes(vertices_.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].include(positions_[vertices_[i]]);
@@ -219,9 +218,8 @@ std::uint64_t stitch(RepairedMesh& mesh, double tolerance) {
   std::vector<OpenEdge> edges = open_edges(mesh.triangles);
   if (edges.empty()) return 0;
   VertexTree tree(mesh.positions, ends_of(edges), tolerance);
-  std::stable_sort(edges.begin(), edges.end(), [](const OpenEdge& a, const OpenEdge& b) {
-    return a.triangle < b.triangle;
-  });
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const OpenEdge& a, const OpenEdge& b) { return a.triangle < b.triangle; });
   std::uint64_t divisions = 0;
   for (auto edge = edges.begin(); edge != edges.end();) {
     const std::uint32_t triangle = edge->triangle;

@@ -204,7 +204,8 @@ void Profile::add(const Contour& contour, std::size_t number) {
     const double bulge = corners[next].bulge;
     Piece piece{.from = place_of(corners[i]), .to = place_of(corners[next])};
     if (largest_component(piece.to - piece.from) < smallest_length) {
-      reject_profile(fmt::format("{} and {} must be at least 1e-100 apart", name_of(number, names.kept[i]),
+      reject_profile(fmt::format("{} and {} must be at least 1e-100 apart",
+                                 name_of(number, names.kept[i]),
                                  name_of(number, names.kept[next])));
     }
     piece.share_from = length;
