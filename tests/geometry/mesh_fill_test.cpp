@@ -126,7 +126,7 @@ TEST_CASE("chords of nested and overlapping boxes are as each rule has them, in 
   }
 }
 
-TEST_CASE("boxes on a grid are inside where their windings say, through CSG and instances too") {
+TEST_CASE("boxes on a grid are inside where their windings say, alone and cut") {
   Random random(21);
   int inside = 0;
   for (int round = 0; round < 150; ++round) {
@@ -176,6 +176,51 @@ TEST_CASE("boxes on a grid are inside where their windings say, through CSG and 
     }
   }
   CHECK(inside > 10000);
+}
+
+TEST_CASE("instances of overlapping boxes, and batches of rays, tell the same as the mesh alone") {
+  Random random(27);
+  for (const Precision tier : tiers) {
+    const Entity mesh = filled(mesh_of(random_cuboids(random, true)), FillRule::nonzero);
+    const PreparedScene alone = scene_of(mesh, tier);
+    // So many that they share one that is compiled once.
+    constexpr int count = 1024;
+    Scene scene;
+    scene.settings.precision = tier;
+    for (int i = 0; i < count; ++i)
+      scene.entities.push_back(mesh.transformed(translate({128.0 * i, 0, 0})));
+    const PreparedScene many = prepare(scene);
+    std::vector<Ray> rays;
+    std::vector<Ray> moved;
+    for (int i = 0; i < 400; ++i) {
+      // Whole numbers and eighths stay what they are where rays are moved.
+      const auto eighth = [&] { return static_cast<double>(random.bits() % 64) / 8 - 1; };
+      Ray ray{.origin = {eighth(), eighth(), -2}, .direction = {eighth(), eighth(), 8}};
+      if (random.one_in(2)) std::swap(ray.origin.y, ray.origin.z);
+      if (random.one_in(2)) ray.direction = Vec3(eighth(), eighth(), eighth()) - ray.origin;
+      if (ray.direction == Vec3(0)) continue;
+      ray.t_max = 2;
+      rays.push_back(ray);
+      ray.origin.x += 128.0 * (random.bits() % count);
+      moved.push_back(ray);
+    }
+    RayQueries queries(many);
+    std::vector<std::optional<Hit>> hits(moved.size());
+    queries.intersect(moved, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::optional<Hit> expected = intersect(alone, rays[i]);
+      REQUIRE(hits[i].has_value() == expected.has_value());
+      REQUIRE(occluded(many, moved[i]) == expected.has_value());
+      const std::vector<Hit> all = crossings(alone, rays[i]);
+      const std::vector<Hit> found = crossings(many, moved[i]);
+      REQUIRE(found.size() == all.size());
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        REQUIRE(found[k].t == doctest::Approx(all[k].t).epsilon(1e-12));
+        REQUIRE(found[k].entering == all[k].entering);
+      }
+      if (expected) REQUIRE(hits[i]->t == doctest::Approx(expected->t).epsilon(1e-12));
+    }
+  }
 }
 
 TEST_CASE("what is left out after the first crossing changes nothing where windings count") {
