@@ -201,7 +201,7 @@ TEST_CASE("instances of overlapping boxes, and batches of rays, tell the same as
       if (ray.direction == Vec3(0)) continue;
       ray.t_max = 2;
       rays.push_back(ray);
-      ray.origin.x += 128.0 * (random.bits() % count);
+      ray.origin.x += 128.0 * static_cast<double>(random.bits() % count);
       moved.push_back(ray);
     }
     RayQueries queries(many);

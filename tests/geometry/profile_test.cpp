@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "crt/entity.hpp"
 #include "geometry/profiles.hpp"
 
 using namespace crt;

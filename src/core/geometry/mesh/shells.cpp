@@ -88,7 +88,7 @@ std::uint32_t end_of(std::span<const std::uint32_t> shells) {
 }
 
 std::string place_text(const Vec3& place) {
-  return fmt::format("({}, {}, {})", place.x, place.y, place.z);
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", place.x, place.y, place.z);
 }
 
 /// An OverlapCount marks shells that overlap others or themselves.
