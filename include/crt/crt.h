@@ -1118,8 +1118,10 @@ CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script
  * Makes an entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is, or else
  * the name. Positions and faces are read in the file's own numbers, of OBJ and PLY also normals and
  * (u, v), of OBJ materials. Vertices with equal coordinates become one, and triangles with two
- * equal corners are left out. Material libraries and pictures that cannot be read are left out,
- * too. Without options they are looked for in the directory of the file and those below.
+ * equal corners are left out. What is inside says CRT_FILL_NONZERO if all shells are turned
+ * outwards, but for cavities, and else CRT_FILL_EVEN_ODD; crt_entity_mesh_report() has which.
+ * Material libraries and pictures that cannot be read are left out, too. Without options they are
+ * looked for in the directory of the file and those below.
  * @param path     where the file is
  * @param options  NULL opens the file of that path. With options, the file is looked for like those
  *                 of a script in the current directory: resource_directories, allow_outside_files

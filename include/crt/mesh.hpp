@@ -99,8 +99,9 @@ const MeshReport* mesh_report(const Entity& entity);
 
 /// Makes triangles with shared corners and attributes for meshes. Two triangles share an edge if no
 /// third has it and it runs from one to the other in opposite directions. It throws Error as the
-/// function without attributes does, and invalid_argument for an attribute or option that is not
-/// finite or out of range, naming the field. It throws what MeshOptions::warn throws.
+/// function without attributes does, invalid_argument for an attribute or option that is not finite
+/// or out of range, naming the field, and limit if `stitch` finds far more vertices on edges than
+/// there are triangles. It throws what MeshOptions::warn throws.
 std::shared_ptr<const MeshTriangles> mesh_triangles(std::span<const Vec3> positions,
                                                     std::span<const TriangleIndices> triangles,
                                                     const MeshAttributes& attributes,

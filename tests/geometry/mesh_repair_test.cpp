@@ -201,6 +201,23 @@ TEST_CASE("many vertices on one edge are put into it in order") {
   CHECK(mesh->fault().starts_with("4 of its "));
 }
 
+TEST_CASE("edges that lie on one another by the thousand are refused, and take no time") {
+  TriangleList list;
+  for (int i = 0; i < 2000; ++i) {
+    const auto first = static_cast<std::uint32_t>(list.positions.size());
+    list.positions.insert(list.positions.end(),
+                          {{-1.0 - i, 0, 0}, {1.0 + i, 0, 0}, {0, 1.0 + i, 0}});
+    list.triangles.push_back({first, first + 1, first + 2});
+  }
+  try {
+    report_of(list, {.stitch = 1e-9});
+    FAIL("four million vertices on edges");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::limit);
+    CHECK(error.argument() == "stitch");
+  }
+}
+
 TEST_CASE("options that are no distances are refused by name") {
   TriangleList list;
   list.add_quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});

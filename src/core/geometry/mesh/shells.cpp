@@ -146,12 +146,15 @@ void find_overlaps(const MeshTriangles& mesh, const SelfMeetings& meetings, cons
   }
   CrossingList crossings;
   int left = 4096;
-  for (std::uint32_t i = 0; i < mesh.size() && left > 0; ++i) {
+  std::size_t work = 0;
+  constexpr std::size_t most_work = std::size_t{1} << 24;  // crossings, some seconds of them
+  for (std::uint32_t i = 0; i < mesh.size() && left > 0 && work < most_work; ++i) {
     const std::optional<std::uint32_t> met = meetings.met_by(i);
     if (!met || (count.is_marked(i) && count.is_marked(*met))) continue;
     --left;
     const ObjectRay ray = ray_into(mesh.triangle(i), mesh.triangle(*met));
     const std::optional<Vec3> place = place_of_overlap(mesh, ray, crossings);
+    work += crossings.size();
     if (!place) continue;
     count.mark(i, *place);
     count.mark(*met, *place);

@@ -1,4 +1,6 @@
 // T-junctions are closed by dividing edges: no vertex moves.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
@@ -8,6 +10,7 @@
 #include "core/geometry/compact_bvh.hpp"
 #include "core/geometry/mesh/repair.hpp"
 #include "core/math/vector.hpp"
+#include "crt/error.hpp"
 
 namespace crt::core {
 
@@ -215,6 +218,9 @@ std::vector<std::uint32_t> ends_of(std::span<const OpenEdge> edges) {
 }  // namespace
 
 std::uint64_t stitch(RepairedMesh& mesh, double tolerance) {
+  // Of T-junctions there are far fewer. Only edges that lie on one another by the thousand have as
+  // many, each with the vertices of all others on it.
+  const std::uint64_t most_divisions = 16 * mesh.triangles.size() + (1u << 16u);
   std::vector<OpenEdge> edges = open_edges(mesh.triangles);
   if (edges.empty()) return 0;
   VertexTree tree(mesh.positions, ends_of(edges), tolerance);
@@ -230,6 +236,15 @@ std::uint64_t stitch(RepairedMesh& mesh, double tolerance) {
       std::erase_if(stops, [&](const Stop& stop) {
         return std::find(own.begin(), own.end(), stop.vertex) != own.end();
       });
+      divisions += stops.size();
+      if (divisions > most_divisions) {
+        throw Error(
+            ErrorCode::limit,
+            fmt::format("stitch finds more than {} vertices on edges: too many edges lie on "
+                        "one another",
+                        most_divisions),
+            "stitch");
+      }
       const bool is_upwards = edge->from == edge->low;
       const std::uint32_t to = is_upwards ? edge->high : edge->low;
       if (!is_upwards) {
@@ -243,7 +258,6 @@ std::uint64_t stitch(RepairedMesh& mesh, double tolerance) {
         from = stop.vertex;
         begin = stop.place;
       }
-      divisions += stops.size();
     }
   }
   return divisions;
