@@ -39,8 +39,8 @@ struct RepairedMesh {
 };
 
 /// Divides open edges at the vertices of others that lie on them, up to a tolerance. What is
-/// divided off is appended. Returns how many divisions there were. Throws Error (limit) for far more
-/// of them than there are triangles.
+/// divided off is appended. Returns how many divisions there were. Throws Error (limit) for far
+/// more of them than there are triangles.
 std::uint64_t stitch(RepairedMesh& mesh, double tolerance);
 
 }  // namespace crt::core
