@@ -69,13 +69,17 @@ struct Apex {
 /// for its use.
 void append_repeated(std::span<const Edge> uses, std::span<const TriangleIndices> triangles,
                      std::vector<Apex>& apexes, std::vector<std::uint32_t>& repeated) {
+  const auto apex_of = [&](const Edge& edge) {
+    const auto [a, b, c] = triangles[edge.triangle];
+    return a ^ b ^ c ^ edge.low ^ edge.high;  // what is left of the three
+  };
+  constexpr std::size_t usual = 2;
+  if (uses.size() < usual) return;
+  if (uses.size() == usual && apex_of(uses[0]) != apex_of(uses[1])) return;
   apexes.clear();
   for (const Edge& edge : uses) {
-    for (const std::uint32_t corner : triangles[edge.triangle]) {
-      if (corner > edge.high) apexes.push_back({corner, edge.triangle});
-    }
+    if (apex_of(edge) > edge.high) apexes.push_back({apex_of(edge), edge.triangle});
   }
-  if (apexes.size() < 2) return;
   std::stable_sort(apexes.begin(), apexes.end(),
                    [](const Apex& a, const Apex& b) { return a.corner < b.corner; });
   for (std::size_t i = 1; i < apexes.size(); ++i) {
