@@ -565,10 +565,74 @@ typedef struct crt_mesh {
   double smooth;
 } crt_mesh;
 
+/**
+ * Makes a mesh by a rule that says what is inside, otherwise as crt_mesh_create() does. By
+ * CRT_FILL_NONZERO it is every point that the triangles go about more often in one direction than
+ * in the other, so that parts which overlap are one solid. The mesh is a solid then if each edge
+ * runs as often in one direction as in the other. Since 1.1.
+ * @param rule  CRT_FILL_EVEN_ODD, as crt_mesh_create() has it, or CRT_FILL_NONZERO
+ */
+CRT_API crt_status crt_mesh_from_triangles_rule(const double* positions, size_t vertex_count,
+                                                const uint32_t* indices, size_t triangle_count,
+                                                int32_t rule, crt_entity** out);
+
 /** Fills in a mesh of nothing. */
 CRT_API crt_status crt_mesh_init(crt_mesh* mesh, size_t struct_size);
 /** Makes a mesh with normals, (u, v) or materials, otherwise as crt_mesh_create() does. */
 CRT_API crt_status crt_mesh_create_with(const crt_mesh* mesh, crt_entity** out);
+
+/** Says what is inside of a mesh, and how its triangles are put right before. Since 1.1. */
+typedef struct crt_mesh_options {
+  uint32_t struct_size;
+  /** Is a crt_fill_rule, or -1, the default: CRT_FILL_EVEN_ODD for the triangles of a program, and
+   * for those of a file CRT_FILL_NONZERO if all shells are turned outwards, but for cavities. */
+  int32_t fill;
+  /** Vertices up to this far from an earlier one become that one. It is from 0, the default, to
+   * 1e100. */
+  double weld;
+  /** Where a vertex of an open edge lies on another open edge, up to this distance, that edge is
+   * divided there, so that T-junctions are closed. It is from 0 (never), the default, to 1e100. */
+  double stitch;
+} crt_mesh_options;
+
+/** Fills in the defaults. Since 1.1. */
+CRT_API crt_status crt_mesh_options_init(crt_mesh_options* options, size_t struct_size);
+/** Makes a mesh by options, otherwise as crt_mesh_create_with() does. Since 1.1. */
+CRT_API crt_status crt_mesh_create_with_options(const crt_mesh* mesh,
+                                                const crt_mesh_options* options, crt_entity** out);
+
+/** Says what was found out about the triangles of a mesh, and what was changed. Since 1.1. */
+typedef struct crt_mesh_report {
+  uint32_t struct_size;
+  int32_t fill;                /**< the crt_fill_rule that holds */
+  uint64_t welded_vertices;    /**< so many became others by `weld` */
+  uint64_t welded_triangles;   /**< so many went, as two of their corners became one */
+  uint64_t stitched_vertices;  /**< so many times an edge was divided by `stitch` */
+  uint64_t repeated_triangles; /**< so many have the corners of an earlier one */
+  double first_repeated[3];    /**< the middle of one of these */
+  uint64_t shells;             /**< so many parts are not connected by edges */
+  /** So many shells lie in others, overlap them or pass through themselves, turned one way. */
+  uint64_t overlapping_shells;
+  double first_overlap[3]; /**< a point near the first of these places */
+} crt_mesh_report;
+
+/** Fills in the report of nothing. Since 1.1. */
+CRT_API crt_status crt_mesh_report_init(crt_mesh_report* report, size_t struct_size);
+/**
+ * Gives the report of an entity that is one mesh, wherever it is placed. It is an error for others.
+ * Since 1.1.
+ * @param report  is filled in as far as its struct_size goes
+ */
+CRT_API crt_status crt_entity_mesh_report(crt_entity* entity, crt_mesh_report* report);
+/**
+ * Gives the warnings of an entity that is one mesh, a line each: what most likely was not meant,
+ * what of a file was left out, and what was changed. It is an error for others. Since 1.1.
+ * @param text      an array of `capacity` bytes, which gets as much of the text as fits, and a 0
+ *                  after it; NULL if that is 0
+ * @param length    gets the length of the whole text without the 0
+ */
+CRT_API crt_status crt_entity_mesh_warnings(crt_entity* entity, char* text, size_t capacity,
+                                            size_t* length);
 
 /**
  * Makes a profile without a contour. Add contours, each by crt_profile_move_to() and then by
@@ -1060,8 +1124,10 @@ CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script
  * Makes an entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is, or else
  * the name. Positions and faces are read in the file's own numbers, of OBJ and PLY also normals and
  * (u, v), of OBJ materials. Vertices with equal coordinates become one, and triangles with two
- * equal corners are left out. Material libraries and pictures that cannot be read are left out,
- * too. Without options they are looked for in the directory of the file and those below.
+ * equal corners are left out. What is inside says CRT_FILL_NONZERO if all shells are turned
+ * outwards, but for cavities, and else CRT_FILL_EVEN_ODD; crt_entity_mesh_report() has which.
+ * Material libraries and pictures that cannot be read are left out, too. Without options they are
+ * looked for in the directory of the file and those below.
  * @param path     where the file is
  * @param options  NULL opens the file of that path. With options, the file is looked for like those
  *                 of a script in the current directory: resource_directories, allow_outside_files
@@ -1076,6 +1142,13 @@ CRT_API crt_status crt_mesh_load(const char* path, const crt_script_options* opt
  */
 CRT_API crt_status crt_mesh_load_smooth(const char* path, const crt_script_options* options,
                                         double smooth, crt_entity** out);
+/**
+ * Makes an entity of a mesh file by options, otherwise as crt_mesh_load_smooth() does. Since 1.1.
+ * @param mesh  NULL for the defaults
+ */
+CRT_API crt_status crt_mesh_load_with(const char* path, const crt_script_options* options,
+                                      double smooth, const crt_mesh_options* mesh,
+                                      crt_entity** out);
 
 /** Says how bad a diagnostic is. */
 typedef enum crt_severity { CRT_SEVERITY_WARNING = 0, CRT_SEVERITY_ERROR } crt_severity;

@@ -38,7 +38,8 @@ struct MeshFile {
   std::uint64_t dropped_triangles = 0;
   /// This has normals, (u, v) and materials, as far as the file has any.
   MeshAttributes attributes{};
-  /// These say, a line each, what was left out: files that it names and that could not be read.
+  /// These say, a line each, what was left out, such as files that it names and that could not be
+  /// read, and what of the file was not as its format wants it.
   std::vector<std::string> warnings{};
 };
 
@@ -63,13 +64,15 @@ MeshFile decode_mesh_file(std::span<const std::byte> content, const std::string&
 
 /// Makes an entity of what was read, by triangle_mesh(). Messages call the file `name`. Throws
 /// Error as that does.
-Entity load_mesh(const MeshFile& file, const std::string& name);
+Entity load_mesh(const MeshFile& file, const std::string& name, const MeshOptions& options = {});
 
 /// Reads a mesh file and makes an entity of it. `smooth` is that of MeshAttributes. Throws Error as
 /// both functions do.
-Entity load_mesh(const std::filesystem::path& path, std::optional<double> smooth = {});
+Entity load_mesh(const std::filesystem::path& path, std::optional<double> smooth = {},
+                 const MeshOptions& options = {});
 
 /// Makes an entity of a mesh file in memory.
-Entity load_mesh(std::span<const std::byte> content, const std::string& name);
+Entity load_mesh(std::span<const std::byte> content, const std::string& name,
+                 const MeshOptions& options = {});
 
 }  // namespace crt

@@ -26,8 +26,8 @@ class PreparedScene {
   MemoryUse memory() const;
 
   /// Returns what the user should know of the scene, a line each: it has no light, its camera is on
-  /// a surface, an image has values that are not finite. A render gives the same to
-  /// RenderOptions::log.
+  /// a surface, an image has values that are not finite, a mesh has warnings in its MeshReport. A
+  /// render gives the same to RenderOptions::log.
   const std::vector<std::string>& warnings() const;
 
   /// Returns what rays see. This is internal.

@@ -152,7 +152,8 @@ struct ProfilePoint {
 };
 
 /// A Contour is a closed line. The bulge of its first corner is that of the piece from the last
-/// corner back to the first. A last corner that repeats the first is that piece.
+/// corner back to the first. A last corner that repeats the first is that piece. Any other corner
+/// that repeats the one before, with a bulge of 0, does not count.
 using Contour = std::vector<ProfilePoint>;
 
 class Profile;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <crt/error.hpp>
+#include <crt/mesh.hpp>
 #include <crt/scene.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -134,10 +135,10 @@ ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOpti
 
 /// Makes an entity of a mesh file that is found as the files of a script in the current directory
 /// are: there, in the resource directories or by open_file(), and nowhere else unless the options
-/// allow it. So are the files that it names. `smooth` is that of MeshAttributes. Throws Error (io)
-/// if there is none, and as load_mesh() in crt/mesh_file.hpp does. What open_file() throws comes
-/// out.
+/// allow it. So are the files that it names. `smooth` is that of MeshAttributes. Of the options for
+/// the mesh `warn` does not count: the MeshReport has the warnings. Throws Error (io) if there is
+/// none, and as load_mesh() in crt/mesh_file.hpp does. What open_file() throws comes out.
 Entity load_mesh(const std::filesystem::path& path, const ScriptOptions& options,
-                 std::optional<double> smooth = {});
+                 std::optional<double> smooth = {}, const MeshOptions& mesh = {});
 
 }  // namespace crt

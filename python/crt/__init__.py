@@ -25,7 +25,7 @@ from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Stat
 from .expressions import Expression
 from .images import Image
 from .jobs import Job
-from .meshes import Mesh, load_mesh
+from .meshes import Mesh, MeshReport, load_mesh, mesh_report
 from .notebooks import Live
 from .primitives import (
     Blob,
@@ -125,6 +125,7 @@ __all__ = [
     "Live",
     "Material",
     "Mesh",
+    "MeshReport",
     "MissingFileError",
     "NO_ENTITY",
     "Pattern",
@@ -154,6 +155,7 @@ __all__ = [
     "intersection",
     "live",
     "load_mesh",
+    "mesh_report",
     "ray",
     "rays",
     "svg_path",

@@ -210,6 +210,40 @@ FIELDS = {
             "any.",
         ),
     ),
+    "crt_mesh_options": (
+        (
+            "int32_t fill",
+            "Is a FillRule, or -1, the default: FillRule.EVEN_ODD for the triangles of a "
+            "program, and for those of a file FillRule.NONZERO if all shells are turned "
+            "outwards, but for cavities.",
+        ),
+        (
+            "double weld",
+            "Vertices up to this far from an earlier one become that one. It is from 0, the "
+            "default, to 1e100.",
+        ),
+        (
+            "double stitch",
+            "Where a vertex of an open edge lies on another open edge, up to this distance, "
+            "that edge is divided there, so that T-junctions are closed. It is from 0 (never), "
+            "the default, to 1e100.",
+        ),
+    ),
+    "crt_mesh_report": (
+        ("int32_t fill", "the FillRule that holds"),
+        ("uint64_t welded_vertices", "so many became others by `weld`"),
+        ("uint64_t welded_triangles", "so many went, as two of their corners became one"),
+        ("uint64_t stitched_vertices", "so many times an edge was divided by `stitch`"),
+        ("uint64_t repeated_triangles", "so many have the corners of an earlier one"),
+        ("double first_repeated[3]", "the middle of one of these"),
+        ("uint64_t shells", "so many parts are not connected by edges"),
+        (
+            "uint64_t overlapping_shells",
+            "So many shells lie in others, overlap them or pass through themselves, turned one "
+            "way.",
+        ),
+        ("double first_overlap[3]", "a point near the first of these places"),
+    ),
     "crt_prepare_options": (
         ("uint32_t reserved", "0"),
         (

@@ -52,18 +52,6 @@ std::shared_ptr<const HeightGrid> to_height_grid(const double* heights, std::uin
   return make_height_grid(std::move(copied), columns, rows);
 }
 
-/// Gives a text as far as it fits, and its whole length.
-void give_text(const std::string& from, const char* argument, char* text, std::size_t capacity,
-               std::size_t* length) {
-  require(length, "length");
-  if (capacity > 0) require(text, argument);
-  *length = from.size();
-  if (capacity == 0) return;
-  const std::size_t fitting = std::min(from.size(), capacity - 1);
-  std::copy_n(from.data(), fitting, text);
-  text[fitting] = 0;
-}
-
 }  // namespace
 
 }  // namespace crt::capi

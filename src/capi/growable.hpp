@@ -36,6 +36,10 @@ crt_background defaults<crt_background>();
 template <>
 crt_mesh defaults<crt_mesh>();
 template <>
+crt_mesh_options defaults<crt_mesh_options>();
+template <>
+crt_mesh_report defaults<crt_mesh_report>();
+template <>
 crt_custom defaults<crt_custom>();
 template <>
 crt_settings defaults<crt_settings>();

@@ -16,6 +16,29 @@ crt_mesh defaults<crt_mesh>() {
   return mesh;
 }
 
+template <>
+crt_mesh_options defaults<crt_mesh_options>() {
+  crt_mesh_options options{};
+  options.fill = -1;
+  return options;
+}
+
+template <>
+crt_mesh_report defaults<crt_mesh_report>() {
+  crt_mesh_report report{};
+  report.fill = CRT_FILL_EVEN_ODD;
+  return report;
+}
+
+MeshOptions to_mesh_options(const crt_mesh_options* options) {
+  if (options == nullptr) return {};
+  const auto given = taken(options, "options");
+  MeshOptions result{.weld = given.weld, .stitch = given.stitch};
+  if (given.fill != -1)
+    result.fill = to_enum(given.fill, FillRule::even_odd, "fill", "crt_fill_rule");
+  return result;
+}
+
 namespace {
 
 /// Returns groups of `size` numbers each, made by `make` of the first of them.
@@ -71,6 +94,17 @@ MeshAttributes to_attributes(const crt_mesh& mesh) {
   return attributes;
 }
 
+const MeshReport& report_of(const crt_entity* entity) {
+  require(entity, "entity");
+  const MeshReport* const report = mesh_report(entity->value);
+  if (report == nullptr) reject("entity", "must be one mesh");
+  return *report;
+}
+
+void put(const Vec3& place, double (&out)[3]) {
+  for (int axis = 0; axis < 3; ++axis) out[axis] = place[axis];
+}
+
 }  // namespace
 
 }  // namespace crt::capi
@@ -91,12 +125,63 @@ crt_status crt_mesh_create(const double* positions, size_t vertex_count, const u
   });
 }
 
+crt_status crt_mesh_from_triangles_rule(const double* positions, size_t vertex_count,
+                                        const uint32_t* indices, size_t triangle_count,
+                                        int32_t rule, crt_entity** out) {
+  return create(out, [&] {
+    require(positions, "positions");
+    require(indices, "indices");
+    const auto fill = to_enum(rule, crt::FillRule::even_odd, "rule", "crt_fill_rule");
+    return crt::triangle_mesh(to_vectors(positions, vertex_count, "positions"),
+                              to_triangles(indices, triangle_count, "indices"), {}, {.fill = fill});
+  });
+}
+
 crt_status crt_mesh_create_with(const crt_mesh* mesh, crt_entity** out) {
+  return crt_mesh_create_with_options(mesh, nullptr, out);
+}
+
+crt_status crt_mesh_options_init(crt_mesh_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_mesh_options>()); });
+}
+
+crt_status crt_mesh_report_init(crt_mesh_report* report, size_t struct_size) {
+  return guarded([&] { initialise(report, struct_size, defaults<crt_mesh_report>()); });
+}
+
+crt_status crt_entity_mesh_report(crt_entity* entity, crt_mesh_report* report) {
+  return guarded([&] {
+    const crt::MeshReport& found = report_of(entity);
+    crt_mesh_report values{};
+    values.fill = static_cast<std::int32_t>(found.fill);
+    values.welded_vertices = found.welded_vertices;
+    values.welded_triangles = found.welded_triangles;
+    values.stitched_vertices = found.stitched_vertices;
+    values.repeated_triangles = found.repeated_triangles;
+    put(found.first_repeated, values.first_repeated);
+    values.shells = found.shells;
+    values.overlapping_shells = found.overlapping_shells;
+    put(found.first_overlap, values.first_overlap);
+    fill_in(report, "report", values);
+  });
+}
+
+crt_status crt_entity_mesh_warnings(crt_entity* entity, char* text, size_t capacity,
+                                    size_t* length) {
+  return guarded([&] {
+    std::string lines;
+    for (const std::string& warning : report_of(entity).warnings) lines += warning + "\n";
+    give_text(lines, "text", text, capacity, length);
+  });
+}
+
+crt_status crt_mesh_create_with_options(const crt_mesh* mesh, const crt_mesh_options* options,
+                                        crt_entity** out) {
   return create(out, [&] {
     const auto given = taken(mesh, "mesh");
     if (given.reserved != 0) reject("mesh", "has a reserved field that is not 0");
     return crt::triangle_mesh(to_vectors(given.positions, given.vertex_count, "positions"),
                               to_triangles(given.indices, given.triangle_count, "indices"),
-                              to_attributes(given));
+                              to_attributes(given), to_mesh_options(options));
   });
 }

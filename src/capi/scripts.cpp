@@ -205,12 +205,18 @@ crt_status crt_mesh_load(const char* path, const crt_script_options* options, cr
 
 crt_status crt_mesh_load_smooth(const char* path, const crt_script_options* options, double smooth,
                                 crt_entity** out) {
+  return crt_mesh_load_with(path, options, smooth, nullptr, out);
+}
+
+crt_status crt_mesh_load_with(const char* path, const crt_script_options* options, double smooth,
+                              const crt_mesh_options* mesh, crt_entity** out) {
   return create(out, [&] {
     require(path, "path");
     if (!(smooth <= std::numbers::pi)) reject("smooth", "must be an angle of at most pi");
     const std::optional<double> angle = smooth < 0 ? std::nullopt : std::optional(smooth);
-    return options == nullptr ? crt::load_mesh(path, angle)
-                              : crt::load_mesh(path, to_options(options), angle);
+    const crt::MeshOptions way = to_mesh_options(mesh);
+    return options == nullptr ? crt::load_mesh(path, angle, way)
+                              : crt::load_mesh(path, to_options(options), angle, way);
   });
 }
 

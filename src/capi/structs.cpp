@@ -55,6 +55,28 @@ std::span<const std::size_t> field_ends<crt_mesh>() {
 }
 
 template <>
+std::span<const std::size_t> field_ends<crt_mesh_options>() {
+  using S = crt_mesh_options;
+  static constexpr std::array ends = {CRT_END(S, fill), CRT_END(S, weld), CRT_END(S, stitch)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_mesh_report>() {
+  using S = crt_mesh_report;
+  static constexpr std::array ends = {CRT_END(S, fill),
+                                      CRT_END(S, welded_vertices),
+                                      CRT_END(S, welded_triangles),
+                                      CRT_END(S, stitched_vertices),
+                                      CRT_END(S, repeated_triangles),
+                                      CRT_END(S, first_repeated),
+                                      CRT_END(S, shells),
+                                      CRT_END(S, overlapping_shells),
+                                      CRT_END(S, first_overlap)};
+  return ends;
+}
+
+template <>
 std::span<const std::size_t> field_ends<crt_custom>() {
   using S = crt_custom;
   static constexpr std::array ends = {

@@ -7,6 +7,7 @@
 #include "crt/camera.hpp"
 #include "crt/light.hpp"
 #include "crt/material.hpp"
+#include "crt/mesh.hpp"
 #include "crt/render.hpp"
 #include "crt/settings.hpp"
 #include "crt/stats.hpp"
@@ -40,6 +41,10 @@ crt_status guarded_with_cancel(const Body& body) {
   });
 }
 
+/// Gives a text as far as it fits, and its whole length.
+void give_text(const std::string& from, const char* argument, char* text, std::size_t capacity,
+               std::size_t* length);
+
 /// Returns three numbers from the caller, and throws for NULL. The C++ interface checks whether
 /// they are good.
 Vec3 to_vec3(const double* numbers, const char* argument);
@@ -60,6 +65,7 @@ Enum to_enum(std::int32_t value, Enum last, const char* argument, const char* li
 Material to_material(const crt_material* material);
 /// `depth` counts the patterns that this one lies within, and itself.
 Pattern to_pattern(const crt_pattern* pattern, const char* argument, int depth = 1);
+MeshOptions to_mesh_options(const crt_mesh_options* options);
 Light to_light(const crt_light* light);
 Camera to_camera(const crt_camera* camera);
 Background to_background(const crt_background* background);

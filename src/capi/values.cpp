@@ -13,6 +13,17 @@ void reject_value(const char* argument, std::int32_t value, const char* list) {
   reject(argument, fmt::format("is {}, which is no {}", value, list));
 }
 
+void give_text(const std::string& from, const char* argument, char* text, std::size_t capacity,
+               std::size_t* length) {
+  require(length, "length");
+  if (capacity > 0) require(text, argument);
+  *length = from.size();
+  if (capacity == 0) return;
+  const std::size_t fitting = std::min(from.size(), capacity - 1);
+  std::copy_n(from.data(), fitting, text);
+  text[fitting] = 0;
+}
+
 Vec3 to_vec3(const double* numbers, const char* argument) {
   require(numbers, argument);
   return {numbers[0], numbers[1], numbers[2]};

@@ -239,6 +239,12 @@ void convert(const Given& given, Context&, ImageMapping& field) {
          field);
 }
 
+void convert(const Given& given, Context&, FillRule& field) {
+  using enum FillRule;
+  using Choice = std::pair<std::string_view, FillRule>;
+  choose(given, std::array{Choice{"evenodd", even_odd}, Choice{"nonzero", nonzero}}, field);
+}
+
 void convert(const Given& given, Context&, SharedMaterial& field) {
   field = get<SharedMaterial>(given);
 }
@@ -404,6 +410,10 @@ void convert(const Given& given, Context&, Background& field) {
 }
 
 void convert(const Given& given, Context& context, std::optional<double>& field) {
+  convert_optional(given, context, field);
+}
+
+void convert(const Given& given, Context& context, std::optional<FillRule>& field) {
   convert_optional(given, context, field);
 }
 

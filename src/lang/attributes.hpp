@@ -50,6 +50,7 @@ void convert(const Given& given, Context& context, Pattern& field);
 void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field);
 void convert(const Given& given, Context& context, std::vector<ColorStop>& field);
 void convert(const Given& given, Context& context, ImageMapping& field);
+void convert(const Given& given, Context& context, FillRule& field);
 void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
 void convert(const Given& given, Context& context, FileName& field);
@@ -71,6 +72,7 @@ void convert(const Given& given, Context& context, std::vector<Light>& field);
 void convert(const Given& given, Context& context, Background& field);
 
 void convert(const Given& given, Context& context, std::optional<double>& field);
+void convert(const Given& given, Context& context, std::optional<FillRule>& field);
 void convert(const Given& given, Context& context, std::optional<Color>& field);
 void convert(const Given& given, Context& context, std::optional<Pattern>& field);
 void convert(const Given& given, Context& context, std::optional<SharedMaterial>& field);
@@ -111,6 +113,9 @@ constexpr std::string_view type_text(const std::vector<ColorStop>*) {
   return "List of colors";
 }
 constexpr std::string_view type_text(const ImageMapping*) {
+  return "String";
+}
+constexpr std::string_view type_text(const FillRule*) {
   return "String";
 }
 constexpr std::string_view type_text(const SharedMaterial*) {

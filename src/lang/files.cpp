@@ -200,17 +200,17 @@ std::shared_ptr<const HeightGrid> Files::heights(const std::string& name, const 
 }
 
 std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::path& directory,
-                                          Span span, std::optional<double> smooth,
-                                          Reporter* reporter) {
+                                          Span span, const MeshWay& way, Reporter* reporter) {
   const Found found = find(name, directory, span);
-  SmoothMeshes& meshes = meshes_[found.path];
-  const auto known = meshes.find(smooth);
+  MeshesByWay& meshes = meshes_[found.path];
+  const auto known = meshes.find(way);
   if (known != meshes.end()) return known->second;
-  constexpr std::size_t most_angles = 16;
-  if (meshes.size() == most_angles) {
+  constexpr std::size_t most_ways = 16;
+  if (meshes.size() == most_ways) {
     throw Failure{.span = span,
-                  .message = fmt::format("'{}' is smoothed by more than {} different angles",
-                                         abbreviated(name), most_angles),
+                  .message = fmt::format("'{}' is smoothed, filled, welded or stitched in more "
+                                         "than {} different ways",
+                                         abbreviated(name), most_ways),
                   .code = ErrorCode::limit};
   }
   return made_of_file(span, [&] {
@@ -220,13 +220,14 @@ std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::pat
     };
     MeshFile file = found.content ? decode_mesh_file(*found.content, shown, {}, open)
                                   : read_mesh_file(found.shown, open);
-    file.attributes.smooth = smooth;
-    auto mesh = std::make_shared<const Entity>(load_mesh(file, shown));
+    file.attributes.smooth = way.smooth;
+    MeshOptions options{.fill = way.fill, .weld = way.weld, .stitch = way.stitch};
     if (reporter != nullptr) {
-      for (const std::string& warning : file.warnings)
+      options.warn = [&](const std::string& warning) {
         reporter->warning(span, printable(fmt::format("'{}': {}", shown, warning)));
+      };
     }
-    return meshes[smooth] = std::move(mesh);
+    return meshes[way] = std::make_shared<const Entity>(load_mesh(file, shown, options));
   });
 }
 

@@ -13,11 +13,22 @@
 #include "crt/entity.hpp"
 #include "crt/image.hpp"
 #include "crt/script.hpp"
+#include "crt/svg_path.hpp"
 #include "crt/text.hpp"
 #include "lang/reporter.hpp"
 #include "lang/source_map.hpp"
 
 namespace crt::lang {
+
+/// A MeshWay says how a mesh file becomes an entity: see MeshAttributes and MeshOptions.
+struct MeshWay {
+  std::optional<double> smooth{};  ///< in radians
+  std::optional<FillRule> fill{};
+  double weld = 0;
+  double stitch = 0;
+
+  friend auto operator<=>(const MeshWay&, const MeshWay&) = default;
+};
 
 class Files {
  public:
@@ -52,11 +63,11 @@ class Files {
                                             const std::filesystem::path& directory, Span span,
                                             Reporter& reporter);
 
-  /// Returns the entity of a mesh file, which is read once a run for each `smooth` (see
-  /// MeshAttributes, in radians). Warnings go to the reporter, if there is one.
+  /// Returns the entity of a mesh file, which is read once a run for each way. Warnings go to the
+  /// reporter. Without one the mesh keeps them.
   std::shared_ptr<const Entity> mesh(const std::string& name,
                                      const std::filesystem::path& directory, Span span,
-                                     std::optional<double> smooth, Reporter* reporter);
+                                     const MeshWay& way, Reporter* reporter);
 
   /// Returns a font, which is read once a run.
   std::shared_ptr<const Font> font(const std::string& name, const std::filesystem::path& directory,
@@ -73,8 +84,8 @@ class Files {
   const ScriptOptions& options_;
   std::filesystem::path script_directory_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
-  using SmoothMeshes = std::map<std::optional<double>, std::shared_ptr<const Entity>>;
-  std::map<std::filesystem::path, SmoothMeshes> meshes_;
+  using MeshesByWay = std::map<MeshWay, std::shared_ptr<const Entity>>;
+  std::map<std::filesystem::path, MeshesByWay> meshes_;
   std::map<std::filesystem::path, std::shared_ptr<const Font>> fonts_;
   std::map<std::filesystem::path, std::shared_ptr<const HeightGrid>> heights_;
 };

@@ -10,6 +10,7 @@
 #include "crt/validate.hpp"
 #include "lang/failure.hpp"
 #include "lang/field_objects.hpp"
+#include "lang/mesh_object.hpp"
 #include "lang/no_size.hpp"
 #include "lang/object_builder.hpp"
 #include "lang/text_object.hpp"
@@ -41,23 +42,6 @@ ObjectType entity(std::string_view name, std::vector<AttributeType> attributes) 
         warn_of(*no_size, site);
         return empty_entity();
       });
-}
-
-/// A MeshOfFile is an entity whose shape is in a file.
-struct MeshOfFile {
-  FileName file;
-  std::optional<double> smooth;
-  std::optional<SharedMaterial> material;
-};
-
-Value finish_mesh(MeshOfFile mesh, const ObjectSite& site) {
-  if (mesh.smooth && !(*mesh.smooth >= 0 && *mesh.smooth <= std::numbers::pi))
-    throw Error(ErrorCode::invalid_argument, "smooth must be from 0 to 180 degrees", "smooth");
-  Context& context = site.context;
-  context.count_made(site.name_span);
-  const auto& [name, directory, span] = mesh.file;
-  const auto entity = context.files.mesh(name, directory, span, mesh.smooth, &context.reporter);
-  return mesh.material ? entity->with_material(*mesh.material) : *entity;
 }
 
 /// A HeightFieldOfScript has its heights in one of two forms.
@@ -128,12 +112,7 @@ std::vector<ObjectType> entities() {
                                   attribute("products", &Quadric::products, "vec3(0, 0, 0)"),
                                   attribute("linear", &Quadric::linear, "vec3(0, 0, 0)"),
                                   required("constant", &Quadric::constant)}),
-      object<MeshOfFile>("Mesh",
-                         {required("file", &MeshOfFile::file),
-                          degrees("smooth", &MeshOfFile::smooth, "as the file has it",
-                                  "must be from 0 to 180 degrees"),
-                          attribute("material", &MeshOfFile::material, "as the file has it")},
-                         finish_mesh),
+      mesh_object(),
       text_object(),
   };
 }

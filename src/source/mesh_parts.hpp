@@ -14,6 +14,7 @@ struct MeshParts {
   std::vector<Vec3> positions;
   std::vector<TriangleIndices> triangles;
   MeshAttributes attributes;
+  FillRule fill = FillRule::even_odd;
 };
 
 /// Adds an OBJ file that is read as the same mesh, and the library of its materials. Returns its

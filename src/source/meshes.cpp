@@ -8,6 +8,7 @@
 #include "core/geometry/mesh/facet_attributes.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 #include "crt/error.hpp"
+#include "crt/mesh_file.hpp"
 #include "source/mesh_parts.hpp"
 #include "source/shapes.hpp"
 #include "source/values.hpp"
@@ -41,6 +42,7 @@ Vec3 direction_that_rounds_to(const std::array<float, 4>& rounded) {
 
 MeshParts parts_of(const MeshTriangles& mesh) {
   MeshParts parts;
+  parts.fill = mesh.report().fill;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
     const TriangleIndices& corners = mesh.corners(i);
     const auto [a, b, c, material] = mesh.triangle(i);
@@ -73,7 +75,8 @@ MeshParts parts_of(const MeshTriangles& mesh) {
 
 /// Refuses a mesh that would be another one if it were made again.
 void check_parts(const MeshParts& parts, const MeshTriangles& mesh) {
-  const auto again = mesh_triangles(parts.positions, parts.triangles, parts.attributes);
+  const auto again =
+      mesh_triangles(parts.positions, parts.triangles, parts.attributes, {.fill = parts.fill});
   if (again->size() == mesh.size() && again->is_closed() == mesh.is_closed() &&
       again->is_oriented() == mesh.is_oriented())
     return;
@@ -119,12 +122,21 @@ class MeshWriter {
     add_rows("uv_indices", "TriangleIndices", "uint32_t", attributes.uv_indices);
     add_materials();
     const Syntax& syntax = program_.syntax();
+    const bool is_nonzero = parts_.fill == FillRule::nonzero;
     if (syntax.is_cpp()) {
-      return program_.define("mesh", "auto",
-                             fields_.all().empty()
-                                 ? fmt::format("mesh_triangles({}, {})", positions, triangles)
-                                 : fmt::format("mesh_triangles({}, {},\n      {})", positions,
-                                               triangles, fields_.constructed("MeshAttributes")));
+      const std::string all = fields_.all().empty() ? "" : fields_.constructed("MeshAttributes");
+      if (is_nonzero) {
+        return program_.define(
+            "mesh", "auto",
+            fmt::format("mesh_triangles({}, {},\n      {},\n      MeshOptions{{.fill = "
+                        "FillRule::nonzero}})",
+                        positions, triangles, all.empty() ? "MeshAttributes{}" : all));
+      }
+      return program_.define(
+          "mesh", "auto",
+          all.empty()
+              ? fmt::format("mesh_triangles({}, {})", positions, triangles)
+              : fmt::format("mesh_triangles({}, {},\n      {})", positions, triangles, all));
     }
     Fields all(syntax);
     all.add_text("", "positions", positions);
@@ -134,9 +146,14 @@ class MeshWriter {
                  std::to_string(parts_.triangles.size()));
     for (const StructField& field : fields_.all())
       all.add_text("", field.name.c_str(), std::get<std::string>(field.value));
+    if (is_nonzero && syntax.is_python()) all.add_text("", "fill", "\"nonzero\"");
     const std::string mesh = program_.structure("mesh", "Mesh", all);
-    return syntax.is_c() ? program_.create("entity", "crt_mesh_create_with", {"&" + mesh})
-                         : program_.define("mesh", "", mesh);
+    if (!syntax.is_c()) return program_.define("mesh", "", mesh);
+    if (!is_nonzero) return program_.create("entity", "crt_mesh_create_with", {"&" + mesh});
+    Fields options(syntax);
+    options.add_text("", "fill", "CRT_FILL_NONZERO");
+    const std::string rule = program_.structure("mesh_options", "", options);
+    return program_.create("entity", "crt_mesh_create_with_options", {"&" + mesh, "&" + rule});
   }
 
  private:
@@ -191,6 +208,14 @@ class MeshWriter {
   Fields fields_;
 };
 
+/// Returns the attribute that a script needs for the rule of a mesh, if its file has another one.
+std::string fill_text(const MeshParts& parts) {
+  const MeshFile file{
+      .positions = parts.positions, .triangles = parts.triangles, .attributes = parts.attributes};
+  if (mesh_report(load_mesh(file, ""))->fill == parts.fill) return "";
+  return parts.fill == FillRule::nonzero ? " fill -> \"nonzero\"" : " fill -> \"evenodd\"";
+}
+
 }  // namespace
 
 std::string mesh_value(Program& program, const Mesh& mesh) {
@@ -200,8 +225,9 @@ std::string mesh_value(Program& program, const Mesh& mesh) {
     if (!is_script) program.require_space(std::size_t{3} * mesh.triangles->size());
     const MeshParts parts = parts_of(*mesh.triangles);
     check_parts(parts, *mesh.triangles);
-    name = program.remember(mesh.triangles.get(), is_script ? obj_file_name(program, parts)
-                                                            : MeshWriter(program, parts).write());
+    name = program.remember(mesh.triangles.get(),
+                            is_script ? obj_file_name(program, parts) + fill_text(parts)
+                                      : MeshWriter(program, parts).write());
   }
   if (program.syntax().is_c()) return name;
   const std::string material = mesh.material ? material_name(program, *mesh.material) : "";

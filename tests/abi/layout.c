@@ -73,6 +73,24 @@ AT(crt_mesh, material_count, 96);
 AT(crt_mesh, material_of_triangle, 104);
 AT(crt_mesh, smooth, 112);
 
+SIZE(crt_mesh_options, 24);
+AT(crt_mesh_options, struct_size, 0);
+AT(crt_mesh_options, fill, 4);
+AT(crt_mesh_options, weld, 8);
+AT(crt_mesh_options, stitch, 16);
+
+SIZE(crt_mesh_report, 104);
+AT(crt_mesh_report, struct_size, 0);
+AT(crt_mesh_report, fill, 4);
+AT(crt_mesh_report, welded_vertices, 8);
+AT(crt_mesh_report, welded_triangles, 16);
+AT(crt_mesh_report, stitched_vertices, 24);
+AT(crt_mesh_report, repeated_triangles, 32);
+AT(crt_mesh_report, first_repeated, 40);
+AT(crt_mesh_report, shells, 64);
+AT(crt_mesh_report, overlapping_shells, 72);
+AT(crt_mesh_report, first_overlap, 80);
+
 SIZE(crt_light, 120);
 AT(crt_light, struct_size, 0);
 AT(crt_light, type, 4);

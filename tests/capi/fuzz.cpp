@@ -175,7 +175,12 @@ void Session::make_primitive() {
         if (input_.below(2) != 0) mesh.normal_indices = mesh.uv_indices = indices;
         if (input_.below(2) != 0) mesh.material_of_triangle = indices;
         mesh.smooth = r;
-        return crt_mesh_create_with(&mesh, out);
+        crt_mesh_options options;
+        crt_mesh_options_init(&options, sizeof options);
+        options.fill = static_cast<std::int32_t>(input_.below(4)) - 1;
+        options.weld = input_.below(2) == 0 ? 0 : r;
+        options.stitch = input_.below(2) == 0 ? 0 : a[0];
+        return crt_mesh_create_with_options(&mesh, &options, out);
       }
     }
   });

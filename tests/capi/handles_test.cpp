@@ -1,12 +1,39 @@
 // Handles are counted, released in any order, and shared by any thread.
 #include <algorithm>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support.hpp"
 #include "support/temporary_directory.hpp"
 
 using namespace crt::test;
+
+namespace {
+
+/// Boxes are the triangles of a box from 0 to 4 and of one in it from 1 to 2, both turned outwards.
+struct Boxes {
+  std::vector<double> positions;
+  std::vector<std::uint32_t> indices;
+};
+
+Boxes two_boxes() {
+  Boxes boxes;
+  constexpr std::uint32_t sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                         {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (const auto& [lower, upper] : {std::pair{0.0, 4.0}, std::pair{1.0, 2.0}}) {
+    const auto first = static_cast<std::uint32_t>(boxes.positions.size() / 3);
+    for (int i = 0; i < 8; ++i) {
+      for (const int bit : {1, 2, 4}) boxes.positions.push_back((i & bit) != 0 ? upper : lower);
+    }
+    for (const auto& side : sides) {
+      for (const int k : {0, 1, 2, 0, 2, 3}) boxes.indices.push_back(first + side[k]);
+    }
+  }
+  return boxes;
+}
+
+}  // namespace
 
 TEST_CASE("the version is the header's") {
   CHECK(crt_version() == (CRT_VERSION_MAJOR << 16 | CRT_VERSION_MINOR << 8 | CRT_VERSION_PATCH));
@@ -153,6 +180,72 @@ TEST_CASE("a mesh has normals, texture coordinates and materials") {
   CHECK(crt_mesh_create_with(&mesh, &out) == CRT_ERROR_INVALID_ARGUMENT);
   CHECK(says("smooth"));
   CHECK(out == nullptr);
+}
+
+TEST_CASE("a mesh has a rule of what is inside, options and a report") {
+  const Boxes boxes = two_boxes();
+  const auto report_of = [](crt_entity* entity) {
+    crt_mesh_report report;
+    REQUIRE(crt_mesh_report_init(&report, sizeof report) == CRT_OK);
+    REQUIRE(crt_entity_mesh_report(entity, &report) == CRT_OK);
+    return report;
+  };
+  const auto crossings_of = [](crt_entity* entity) {
+    const SceneHandle scene = made<SceneHandle>(crt_scene_create);
+    REQUIRE(crt_scene_add_entity(scene.get(), entity) == CRT_OK);
+    const PreparedHandle prepared = made<PreparedHandle>(
+        [&](crt_prepared** out) { return crt_scene_prepare(scene.get(), out); });
+    const crt_ray ray = {{1.5, 1.25, -1}, {0, 0, 1}, 0, 100};
+    std::size_t count = 0;
+    REQUIRE(crt_crossings(prepared.get(), &ray, nullptr, 0, &count) == CRT_OK);
+    return count;
+  };
+  for (const std::int32_t rule : {CRT_FILL_EVEN_ODD, CRT_FILL_NONZERO}) {
+    const EntityHandle mesh = made<EntityHandle>([&](crt_entity** out) {
+      return crt_mesh_from_triangles_rule(boxes.positions.data(), boxes.positions.size() / 3,
+                                          boxes.indices.data(), boxes.indices.size() / 3, rule,
+                                          out);
+    });
+    CHECK(crossings_of(mesh.get()) == (rule == CRT_FILL_NONZERO ? 2 : 4));
+    const crt_mesh_report report = report_of(mesh.get());
+    CHECK(report.fill == rule);
+    CHECK(report.shells == 2);
+    CHECK(report.overlapping_shells == 1);
+    CHECK(report.first_overlap[0] >= 1);
+    std::size_t length = 0;
+    REQUIRE(crt_entity_mesh_warnings(mesh.get(), nullptr, 0, &length) == CRT_OK);
+    std::string text(length + 1, '?');
+    REQUIRE(crt_entity_mesh_warnings(mesh.get(), text.data(), text.size(), &length) == CRT_OK);
+    CHECK(text.starts_with("1 of its 2 shells lie in others or overlap"));
+  }
+  crt_mesh mesh;
+  crt_mesh_options options;
+  REQUIRE(crt_mesh_init(&mesh, sizeof mesh) == CRT_OK);
+  REQUIRE(crt_mesh_options_init(&options, sizeof options) == CRT_OK);
+  CHECK(options.fill == -1);
+  mesh.positions = boxes.positions.data();
+  mesh.vertex_count = boxes.positions.size() / 3;
+  mesh.indices = boxes.indices.data();
+  mesh.triangle_count = boxes.indices.size() / 3;
+  options.weld = 1.5;  // makes a point of each side of the smaller box
+  const EntityHandle welded = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_mesh_create_with_options(&mesh, &options, out); });
+  CHECK(report_of(welded.get()).fill == CRT_FILL_EVEN_ODD);
+  CHECK(report_of(welded.get()).welded_vertices > 0);
+  CHECK(report_of(welded.get()).welded_triangles > 0);
+
+  crt_entity* out = nullptr;
+  options.weld = -1;
+  CHECK(crt_mesh_create_with_options(&mesh, &options, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("weld must be from 0 to 1e100"));
+  options.fill = 2;
+  CHECK(crt_mesh_create_with_options(&mesh, &options, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("crt_fill_rule"));
+  crt_mesh_report report;
+  REQUIRE(crt_mesh_report_init(&report, sizeof report) == CRT_OK);
+  const EntityHandle ball = sphere({0, 0, 0}, 0.5);
+  CHECK(crt_entity_mesh_report(ball.get(), &report) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("entity must be one mesh"));
 }
 
 TEST_CASE("each thread has its own last message") {

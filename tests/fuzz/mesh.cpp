@@ -44,14 +44,17 @@ std::string archive_of(const std::string& model) {
   return archive;
 }
 
-/// Makes a mesh of what was read, which only fails if no triangle has an area.
+/// Makes meshes of what was read, which only fails if no triangle has an area, or if far too many
+/// edges lie on one another.
 void check_attributes(const crt::MeshFile& mesh) {
   constexpr std::size_t enough = 1000;
   if (mesh.triangles.size() > enough) return;
-  try {
-    crt::load_mesh(mesh, "mesh");
-  } catch (const crt::Error& error) {
-    if (error.argument() != "triangles") std::abort();
+  for (const double distance : {0.0, 1e-3, 1.0}) {
+    try {
+      crt::load_mesh(mesh, "mesh", {.weld = distance, .stitch = distance});
+    } catch (const crt::Error& error) {
+      if (error.argument() != "triangles" && error.argument() != "stitch") std::abort();
+    }
   }
 }
 

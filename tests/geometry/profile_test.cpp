@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "crt/entity.hpp"
 #include "geometry/profiles.hpp"
 
 using namespace crt;
@@ -41,7 +42,7 @@ TEST_CASE("an error of a profile says which corner of which contour is wrong") {
   CHECK(fault({{{0, 0}, {1, 0}, {1, 1, HUGE_VAL}}}) == "profile: corner 2 of contour 0 has inf");
   CHECK(fault({{{0, 0}, {2e100, 0}, {1, 1}}}) ==
         "profile: corner 1 of contour 0 must be at most 1e100 in magnitude (it is (2e+100, 0))");
-  CHECK(fault({{{0, 0}, {1, 0}, {1, 0}, {1, 1}}}) ==
+  CHECK(fault({{{0, 0}, {1, 0}, {1, 0, 0.5}, {1, 1}}}) ==
         "profile: corner 1 of contour 0 and corner 2 of contour 0 must be at least 1e-100 apart");
   CHECK(fault({{{0, 0, 1}}}) ==
         "profile: corner 0 of contour 0 and corner 0 of contour 0 must be at least 1e-100 apart");
@@ -51,6 +52,33 @@ TEST_CASE("an error of a profile says which corner of which contour is wrong") {
   CHECK(fault({{{0, 0}, {1, 0, 1e-9}, {1, 1}}}) == no_circle + "1e-09)");
   CHECK(fault({{{0, 0}, {1, 0, 1e300}, {1, 1}}}) == no_circle + "1e+300)");
   CHECK(fault({{{1e15, 0}, {1e15, 1, 0.3}}}) == no_circle + "0.3)");
+}
+
+TEST_CASE("a corner that repeats the one before does not count, in extrusions and revolutions") {
+  const Contour plain = {{1, 0}, {2, 0, 0.5}, {2, 2}, {1, 2}};
+  Contour repeated = {{1, 0}, {1, 0}, {2, 0, 0.5}, {2, -0.0}, {2, 0}, {2, 2}, {1, 2}, {1, 2}};
+  const auto pieces = [](const Contour& contour) { return make_profile({{contour}})->pieces(); };
+  for (const bool is_closed : {false, true}) {
+    if (is_closed) repeated.insert(repeated.end(), 2, {1, 0});
+    const auto expected = pieces(plain);
+    const auto found = pieces(repeated);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      CHECK(found[i].from == expected[i].from);
+      CHECK(found[i].to == expected[i].to);
+      CHECK(found[i].arc == expected[i].arc);
+    }
+    CHECK_NOTHROW(Entity(Extrusion{.profile = make_profile({{repeated}})}));
+    CHECK_NOTHROW(Entity(Revolution{.profile = make_profile({{repeated}})}));
+  }
+  // Corners keep their numbers in messages.
+  const Contour wrong = {{1, 0}, {1, 0}, {2, 0}, {-1, 1}};
+  try {
+    const Entity entity(Revolution{.profile = make_profile({{wrong}})});
+    FAIL("beyond the axis");
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()).find("corner 3 of contour 0") != std::string::npos);
+  }
 }
 
 TEST_CASE("arcs of every size and curvature that has a circle are taken") {

@@ -29,6 +29,20 @@ TEST_CASE("vertices may have colours, normals and texture coordinates") {
             .triangles == square);
 }
 
+TEST_CASE("without the word OFF a file is read if its name says that it is one, with a warning") {
+  for (const std::string begin : {"4 1 4\n", "# made\n\n4 1\n"}) {
+    const MeshFile file = decode(begin + rows, "a.off");
+    CHECK(file.format == MeshFormat::off);
+    CHECK(file.triangles == square);
+    REQUIRE(file.warnings.size() == 1);
+    CHECK(file.warnings[0].ends_with(
+        "it does not begin with the word OFF, but is read as if it did"));
+  }
+  CHECK(decode("OFF\n4 1 4\n" + rows).warnings.empty());
+  CHECK(decode_error("4 1 4\n" + rows, "a.mesh") == "it is no OBJ, PLY, STL, 3MF or OFF file");
+  CHECK(decode_error("x 1 4\n" + rows, "a.off") == "line 1: it does not begin with the word OFF");
+}
+
 TEST_CASE("what is wrong with an OFF file is said with its line") {
   const auto error = [](const std::string& text) { return decode_error(text, "a.off"); };
   CHECK(error("4OFF\n4 1 0\n") ==

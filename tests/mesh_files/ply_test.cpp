@@ -114,7 +114,7 @@ TEST_CASE("what is wrong with a PLY file's header is said with its line") {
   CHECK(decode_error(text_file(faces, "")).find("no element 'vertex'") == std::string::npos);
   CHECK(decode_error(text_file("")) == "it has no element 'vertex'");
   CHECK(decode_error(text_file(vertices, "0 0 0 1 0 0 1 1 0 0 1 0")) ==
-        "it has no element 'face', so it has points and no surface");
+        "it has no element 'face' or 'tristrips', so it has points and no surface");
   CHECK(decode_error(text_file("element vertex 1\nproperty float x\n" + faces)) ==
         "its vertices have no property 'y'");
   CHECK(decode_error(text_file(vertices + "element face 1\nproperty int vertex_indices\n")) ==
@@ -211,4 +211,43 @@ TEST_CASE("vertices in two tables have normals if both tables have them") {
       decode(text_file(table + normals + table + normals + faces,
                        "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n1 1 0 0 0 2\n3 0 1 3\n"));
   CHECK(both.attributes.normals.size() == 4);
+}
+
+TEST_CASE("triangle strips are turned in turns, and end at -1") {
+  const std::string header =
+      vertices + "element tristrips 1\nproperty list int int vertex_indices\n";
+  const std::string places = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  const auto triangles = [&](const std::string& strip) {
+    return decode(text_file(header, places + strip)).triangles;
+  };
+  using List = std::vector<TriangleIndices>;
+  CHECK(triangles("4 0 1 2 3\n") == List{{0, 1, 2}, {2, 1, 3}});
+  CHECK(triangles("9 0 1 2 -1 -1 3 2 1 -1\n") == List{{0, 1, 2}, {3, 2, 1}});
+  // Two equal vertices in a row turn what follows.
+  CHECK(triangles("5 0 1 1 2 3\n") == List{{1, 2, 3}});
+  CHECK(decode_error(text_file(header, places + "2 0 1\n")) == "it has no faces");
+  CHECK(decode_error(text_file(header, places + "3 0 1 4\n")) ==
+        "line 14: a corner is vertex 4; it should be a whole number from 0, less than 4");
+  CHECK(decode_error(text_file(header, places + "3 0 1 -2\n")).find("vertex -2") !=
+        std::string::npos);
+  CHECK(
+      decode_error(text_file(vertices + "element tristrips 1\nproperty int a\n", places + "1\n")) ==
+      "its triangle strips have no list 'vertex_indices'");
+  // Faces may stand beside them.
+  CHECK(decode(text_file(header + faces, places + "3 0 1 2\n3 1 3 2\n")).triangles ==
+        List{{0, 1, 2}, {1, 3, 2}});
+}
+
+TEST_CASE("a cube of one strip, as scanners write them, is closed and turned one way") {
+  const std::string header =
+      "element vertex 8\nproperty float x\nproperty float y\n"
+      "property float z\nelement tristrips 1\n"
+      "property list int int vertex_indices\n";
+  const std::string places = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
+  const MeshFile file = decode(text_file(header, places + "14 6 7 4 5 1 7 3 6 2 4 0 1 2 3\n"));
+  CHECK(file.triangles.size() == 12);
+  const Entity entity = load_mesh(file, "it");
+  CHECK(entity.is_solid());
+  // Else the nonzero rule would not be chosen.
+  CHECK(mesh_report(entity)->fill == FillRule::nonzero);
 }

@@ -73,15 +73,40 @@ TEST_CASE("what is wrong with an STL file is said with its line or byte") {
   CHECK(error("solid a\n" + letters) == "line 5: a coordinate is 'l', which is no number");
   letters.replace(letters.find("vertex l") + 7, 1, "inf");
   CHECK(error("solid a\n" + letters) == "line 5: a coordinate is not finite");
-  CHECK(error("solid a\n" + facet + "endsolid a\nmore\n") ==
-        "line 10: here is 'more' where solid should be");
+  CHECK(error("more\n") ==
+        "it has 5 bytes; a binary STL file begins with a header of 84, and text "
+        "with 'solid'");
   CHECK(error(binary("", 0, 0)) == "it has no faces");
   CHECK(error(binary("", 1, 1, std::numeric_limits<float>::quiet_NaN())) ==
         "byte 108: a coordinate of triangle 0 is not finite");
   CHECK(error(binary("", 0x80000000, 1)) ==
         "byte 80: the file says that it has 2147483648 triangles, which take 107374182484 bytes; "
         "but it has 134 bytes, which are 1 triangles");
-  CHECK(error(binary("solid", 3, 2) + "xx").find("2 triangles and a part of one") !=
+  CHECK(error(binary("solid", 5, 2) + "xx").find("2 triangles and a part of one") !=
         std::string::npos);
-  CHECK(error(binary("", 1, 2)).find("says that it has 1 triangles") != std::string::npos);
+}
+
+TEST_CASE("a wrong count of triangles and what stands behind them are warnings") {
+  const auto read = [](const std::string& text, std::size_t triangles) {
+    const MeshFile file = decode(text, "a.stl");
+    REQUIRE(file.warnings.size() == 1);
+    // Triangles that are the same are all read.
+    CHECK(file.triangles.size() == triangles);
+    return file.warnings[0];
+  };
+  CHECK(
+      read(binary("", 0, 2), 2) ==
+      "byte 80: the file says that it has 0 triangles, which take 84 bytes; but it has 184 bytes, "
+      "which are 2 triangles: it is read as 2");
+  CHECK(read(binary("", 0xffffffff, 2), 2).ends_with("it is read as 2"));
+  CHECK(read(binary("", 1, 2), 2).ends_with("it is read as 2"));
+  CHECK(read(binary("", 3, 2), 2).ends_with("it is read as 2"));
+  CHECK(
+      read(binary("", 3, 2) + "xx", 2).ends_with("2 triangles and a part of one: it is read as 2"));
+  CHECK(read(binary("", 2, 2) + "xx", 2).ends_with("it is read as 2"));
+  CHECK(read(binary("", 1, 2) + "xx", 1).ends_with("it is read as 1"));
+  CHECK(read("solid a\n" + facet + "endsolid a\nmore\nand more\n", 1) ==
+        "line 10: here is 'more' where solid or the end should be: it is left out, with all that "
+        "follows");
+  CHECK(decode(binary("", 2, 2), "a.stl").warnings.empty());
 }

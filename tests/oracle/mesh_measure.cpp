@@ -9,6 +9,7 @@
 
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/shape.hpp"
+#include "crt/mesh.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
@@ -342,26 +343,25 @@ MeshRecord measure_mesh(MeshKind kind, std::size_t triangles, std::uint64_t numb
   return record;
 }
 
-MeshRecord measure_mesh_difference(std::size_t triangles, std::uint64_t number,
-                                   std::uint64_t rays) {
-  Random random(number);
-  const MeshPair pair = coincident_meshes(random, triangles);
+namespace {
+
+/// Measures an entity made of a pair of meshes. combine(first, second) says what it is.
+template <class Combine>
+MeshRecord measure_pair(const MeshPair& pair, const Entity& entity, const std::string& name,
+                        const Combine& combine, std::uint64_t number, std::uint64_t rays) {
   MeshRecord record;
   record.add_mesh(pair.first);
   count_coincident(pair.first, pair.second, record);
   count_coincident(pair.second, pair.first, record);
   const MeshOracle first(pair.first);
   const MeshOracle second(pair.second);
-  const bool by_transform = number % 2 == 0;
-  const Entity difference =
-      pair.first.entity() - (by_transform ? placed_second(pair) : pair.second.entity());
-  const PreparedScene standard = mesh_scene(difference, Precision::standard);
-  const PreparedScene exact = mesh_scene(difference, Precision::exact);
+  const PreparedScene standard = mesh_scene(entity, Precision::standard);
+  const PreparedScene exact = mesh_scene(entity, Precision::exact);
   for (std::uint64_t i = 0; i < rays; ++i) {
     Random own = random_for(number, i);
     const Ray line = line_at(own.one_in(2) ? pair.first : pair.second, own);
-    const TrueMeshLine truth = difference_of(first.along(line.origin, line.direction),
-                                             second.along(line.origin, line.direction));
+    const TrueMeshLine truth = combine(first.along(line.origin, line.direction),
+                                       second.along(line.origin, line.direction));
     const Flips flips = truth.flips();
     ++record.rays;
     record.touching += truth.touches_edges ? 1 : 0;
@@ -373,11 +373,37 @@ MeshRecord measure_mesh_difference(std::size_t triangles, std::uint64_t number,
     if (is_exact && answer != Answer::wrong) continue;
     const char* const tiers =
         is_exact ? "standard" : (answer == Answer::wrong ? "both tiers" : "exact");
-    add_failure(
-        fmt::format("difference {} of {} triangles, ray {}: {}", number, triangles, i, tiers),
-        record);
+    add_failure(fmt::format("{} {} of {} triangles, ray {}: {}", name, number,
+                            pair.first.triangles.size(), i, tiers),
+                record);
   }
   return record;
+}
+
+}  // namespace
+
+MeshRecord measure_mesh_difference(std::size_t triangles, std::uint64_t number,
+                                   std::uint64_t rays) {
+  Random random(number);
+  const MeshPair pair = coincident_meshes(random, triangles);
+  const bool by_transform = number % 2 == 0;
+  const Entity difference =
+      pair.first.entity() - (by_transform ? placed_second(pair) : pair.second.entity());
+  return measure_pair(pair, difference, "difference", difference_of, number, rays);
+}
+
+MeshRecord measure_mesh_union(std::size_t triangles, std::uint64_t number, std::uint64_t rays) {
+  Random random(number);
+  const MeshPair pair = coincident_meshes(random, triangles);
+  TriangleList both = pair.first;
+  const auto first = static_cast<std::uint32_t>(both.positions.size());
+  both.positions.insert(both.positions.end(), pair.second.positions.begin(),
+                        pair.second.positions.end());
+  for (const auto& [a, b, c] : pair.second.triangles)
+    both.triangles.push_back({first + a, first + b, first + c});
+  const Entity entity =
+      triangle_mesh(both.positions, both.triangles, {}, {.fill = FillRule::nonzero});
+  return measure_pair(pair, entity, "union", union_of, number, rays);
 }
 
 MeshRecord measure_meshes(MeshKind kind, std::size_t most_triangles, std::uint64_t rays) {
@@ -389,6 +415,10 @@ MeshRecord measure_meshes(MeshKind kind, std::size_t most_triangles, std::uint64
 
 MeshRecord measure_mesh_differences(std::size_t most_triangles, std::uint64_t rays) {
   return measure_sizes(most_triangles, rays, measure_mesh_difference);
+}
+
+MeshRecord measure_mesh_unions(std::size_t most_triangles, std::uint64_t rays) {
+  return measure_sizes(most_triangles, rays, measure_mesh_union);
 }
 
 }  // namespace crt::test

@@ -47,8 +47,12 @@ MeshRecord measure_mesh(MeshKind kind, std::size_t triangles, std::uint64_t numb
 /// Measures the first of two meshes without the second, whose facets coincide.
 MeshRecord measure_mesh_difference(std::size_t triangles, std::uint64_t number, std::uint64_t rays);
 
+/// Measures one mesh that has the triangles of both, filled by the nonzero rule.
+MeshRecord measure_mesh_union(std::size_t triangles, std::uint64_t number, std::uint64_t rays);
+
 /// Measures so many rays in all, at meshes of 100 triangles to so many, as many rays at each size.
 MeshRecord measure_meshes(MeshKind kind, std::size_t most_triangles, std::uint64_t rays);
 MeshRecord measure_mesh_differences(std::size_t most_triangles, std::uint64_t rays);
+MeshRecord measure_mesh_unions(std::size_t most_triangles, std::uint64_t rays);
 
 }  // namespace crt::test

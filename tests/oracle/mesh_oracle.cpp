@@ -67,6 +67,30 @@ mpq_class times_power(mpq_class q, int exponent) {
   return q;
 }
 
+/// Returns where a line is inside of what two solids make. is_inside(first, second) says of a place
+/// in or out of each whether that is.
+template <class IsInside>
+TrueMeshLine combined(const TrueMeshLine& one, const TrueMeshLine& other,
+                      const IsInside& is_inside) {
+  TrueMeshLine result;
+  result.touches_edges = one.touches_edges || other.touches_edges;
+  std::size_t i = 0;
+  std::size_t k = 0;
+  while (i < one.places.size() || k < other.places.size()) {
+    const bool first =
+        k == other.places.size() || (i < one.places.size() && one.places[i].t <= other.places[k].t);
+    const bool second =
+        i == one.places.size() || (k < other.places.size() && other.places[k].t <= one.places[i].t);
+    MeshPlace place = first ? one.places[i] : other.places[k];
+    if (first && second) place.bound = std::max(place.bound, other.places[k].bound);
+    i += first ? 1 : 0;
+    k += second ? 1 : 0;
+    place.inside_after = is_inside(one.inside_before(i), other.inside_before(k));
+    result.places.push_back(std::move(place));
+  }
+  return result;
+}
+
 }  // namespace
 
 /// A Line is in doubles, and without any rounding in units of powers of two.
@@ -124,23 +148,11 @@ std::vector<const MeshPlace*> TrueMeshLine::flips() const {
 }
 
 TrueMeshLine difference_of(const TrueMeshLine& from, const TrueMeshLine& taken) {
-  TrueMeshLine result;
-  result.touches_edges = from.touches_edges || taken.touches_edges;
-  std::size_t i = 0;
-  std::size_t k = 0;
-  while (i < from.places.size() || k < taken.places.size()) {
-    const bool first = k == taken.places.size() ||
-                       (i < from.places.size() && from.places[i].t <= taken.places[k].t);
-    const bool second = i == from.places.size() ||
-                        (k < taken.places.size() && taken.places[k].t <= from.places[i].t);
-    MeshPlace place = first ? from.places[i] : taken.places[k];
-    if (first && second) place.bound = std::max(place.bound, taken.places[k].bound);
-    i += first ? 1 : 0;
-    k += second ? 1 : 0;
-    place.inside_after = from.inside_before(i) && !taken.inside_before(k);
-    result.places.push_back(std::move(place));
-  }
-  return result;
+  return combined(from, taken, [](bool first, bool second) { return first && !second; });
+}
+
+TrueMeshLine union_of(const TrueMeshLine& one, const TrueMeshLine& other) {
+  return combined(one, other, [](bool first, bool second) { return first || second; });
 }
 
 MeshOracle::MeshOracle(const TriangleList& mesh) {

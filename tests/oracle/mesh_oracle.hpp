@@ -51,6 +51,8 @@ struct TrueMeshLine {
 
 /// Returns where a line is in the first of two solids and not in the second.
 TrueMeshLine difference_of(const TrueMeshLine& from, const TrueMeshLine& taken);
+/// Returns where a line is in either of two solids.
+TrueMeshLine union_of(const TrueMeshLine& one, const TrueMeshLine& other);
 
 class MeshOracle {
  public:

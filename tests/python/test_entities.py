@@ -117,6 +117,32 @@ class Primitives(unittest.TestCase):
         ):
             with self.assertRaises((ValueError, crt.Error), msg=wrong):
                 crt.Mesh(corners, triangles, **wrong)
+
+    def test_a_mesh_has_a_rule_of_what_is_inside_and_a_report(self):
+        bits = np.array([[i >> axis & 1 for axis in range(3)] for i in range(8)])
+        sides = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
+        box = np.array([t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))])
+        positions = np.vstack((4 * bits, 1 + bits))
+        indices = np.vstack((box, box + 8))
+        ray = crt.rays([(1.5, 1.25, -1)], (0, 0, 1))
+        for fill, count in (("evenodd", 4), ("nonzero", 2)):
+            mesh = crt.Mesh(positions, indices, fill=fill)
+            self.assertEqual(len(crt.Scene([mesh]).prepare().crossings(ray[0])), count)
+            report = crt.mesh_report(mesh)
+            self.assertEqual((report.fill, report.shells, report.overlapping_shells), (fill, 2, 1))
+            self.assertEqual(report.first_overlap[0], 1)
+            self.assertEqual(len(report.warnings), 1)
+        loose = positions[indices.ravel()] + np.linspace(0, 1e-7, indices.size)[:, None]
+        corners = np.arange(indices.size).reshape(-1, 3)
+        self.assertFalse(crt.Mesh(loose, corners).is_solid)
+        welded = crt.Mesh(loose, corners, weld=1e-6, stitch=1e-6)
+        self.assertTrue(welded.is_solid)
+        self.assertEqual(crt.mesh_report(welded).welded_vertices, indices.size - 16)
+        for wrong in ({"fill": "odd"}, {"weld": -1}, {"stitch": 1e101}, {"weld": math.nan}):
+            with self.assertRaises(ValueError, msg=wrong):
+                crt.Mesh(positions, indices, **wrong)
+        with self.assertRaises(crt.Error):
+            crt.mesh_report(crt.Sphere((0, 0, 0), 1))
     def test_a_height_field_takes_rows_of_numbers_from_0_to_1(self):
         for wrong in ([1, 2], [[1, 2], [3]], [["a"]], np.ones((2, 2, 2))):
             with self.assertRaises((ValueError, TypeError)):

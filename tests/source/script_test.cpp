@@ -207,6 +207,33 @@ TEST_CASE("meshes are read back with their normals, (u, v) and materials") {
   check_same_picture(scene);
 }
 
+TEST_CASE("meshes keep their rule of what is inside, in scripts and in programs") {
+  // A tetrahedron, and a smaller one in it.
+  std::vector<Vec3> positions;
+  std::vector<TriangleIndices> triangles;
+  for (const double size : {1.0, 0.25}) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (const Vec3& corner : {Vec3{1, 1, 1}, Vec3{1, -1, -1}, Vec3{-1, 1, -1}, Vec3{-1, -1, 1}})
+      positions.push_back(size * corner);
+    for (const auto& [a, b, c] : {TriangleIndices{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}})
+      triangles.push_back({first + a, first + b, first + c});
+  }
+  for (const FillRule rule : {FillRule::even_odd, FillRule::nonzero}) {
+    const Entity entity = triangle_mesh(positions, triangles, {}, {.fill = rule});
+    const Scene read = again(scene_of(entity));
+    CHECK(mesh_report(triangles_of(read)).fill == rule);
+    const bool is_nonzero = rule == FillRule::nonzero;
+    const auto has = [&](SourceLanguage language, const char* text) {
+      return source_code(entity, {.language = language}).text.find(text) != std::string::npos;
+    };
+    CHECK(has(SourceLanguage::cpp, "MeshOptions{.fill = FillRule::nonzero}") == is_nonzero);
+    CHECK(has(SourceLanguage::c, ".fill = CRT_FILL_NONZERO;") == is_nonzero);
+    CHECK(has(SourceLanguage::python, "fill=\"nonzero\"") == is_nonzero);
+    // The default of files is nonzero here.
+    CHECK(has(SourceLanguage::script, "fill -> \"evenodd\"") == !is_nonzero);
+  }
+}
+
 TEST_CASE("materials that no MTL file can say are refused for facets, and not for a whole mesh") {
   const std::vector<Vec3> positions = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   const std::vector<TriangleIndices> triangles = {{0, 1, 2}};

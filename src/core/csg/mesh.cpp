@@ -1,4 +1,10 @@
 #include "crt/mesh.hpp"
+
+#include <cmath>
+
+#include "core/csg/entity_node.hpp"
+#include "core/geometry/checks.hpp"
+#include "core/geometry/mesh/repair.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 
 namespace crt {
@@ -10,8 +16,10 @@ std::shared_ptr<const MeshTriangles> mesh_triangles(std::span<const Vec3> positi
 
 std::shared_ptr<const MeshTriangles> mesh_triangles(std::span<const Vec3> positions,
                                                     std::span<const TriangleIndices> triangles,
-                                                    const MeshAttributes& attributes) {
-  return std::make_shared<const MeshTriangles>(positions, triangles, &attributes);
+                                                    const MeshAttributes& attributes,
+                                                    const MeshOptions& options) {
+  return core::make_mesh_triangles({positions, triangles, attributes}, options,
+                                   options.fill.value_or(FillRule::even_odd), {});
 }
 
 Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles) {
@@ -19,8 +27,20 @@ Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIn
 }
 
 Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles,
-                     const MeshAttributes& attributes) {
-  return Mesh{.triangles = mesh_triangles(positions, triangles, attributes)};
+                     const MeshAttributes& attributes, const MeshOptions& options) {
+  return Mesh{.triangles = mesh_triangles(positions, triangles, attributes, options)};
+}
+
+const MeshReport& mesh_report(const MeshTriangles& triangles) {
+  return triangles.report();
+}
+
+const MeshReport* mesh_report(const Entity& entity) {
+  const EntityNode* node = &entity.node();
+  if (const auto* wrapper = std::get_if<EntityWrapper>(&node->content)) node = wrapper->child.get();
+  const auto* primitive = std::get_if<Primitive>(&node->content);
+  const auto* mesh = primitive == nullptr ? nullptr : std::get_if<Mesh>(primitive);
+  return mesh == nullptr ? nullptr : &mesh->triangles->report();
 }
 
 }  // namespace crt

@@ -4,8 +4,10 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/base/whole_file.hpp"
+#include "core/geometry/mesh/repair.hpp"
 #include "core/mesh_files/mesh_builder.hpp"
 #include "core/mesh_files/mesh_format.hpp"
 #include "core/mesh_files/readers.hpp"
@@ -82,23 +84,27 @@ MeshFile read_mesh_file(const std::filesystem::path& path, const OpenMeshPart& o
                           open ? open : opener_in(path.parent_path()));
 }
 
-Entity load_mesh(const MeshFile& file, const std::string& name) {
+Entity load_mesh(const MeshFile& file, const std::string& name, const MeshOptions& options) {
   try {
-    return triangle_mesh(file.positions, file.triangles, file.attributes);
+    const GivenMesh given{file.positions, file.triangles, file.attributes};
+    MeshReport report{.name = name, .warnings = file.warnings};
+    return Mesh{.triangles = make_mesh_triangles(given, options, options.fill, std::move(report))};
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("cannot make a mesh of '{}': {}", name, error.what()),
                 error.argument());
   }
 }
 
-Entity load_mesh(const std::filesystem::path& path, std::optional<double> smooth) {
+Entity load_mesh(const std::filesystem::path& path, std::optional<double> smooth,
+                 const MeshOptions& options) {
   MeshFile file = read_mesh_file(path);
   file.attributes.smooth = smooth;
-  return load_mesh(file, path.string());
+  return load_mesh(file, path.string(), options);
 }
 
-Entity load_mesh(std::span<const std::byte> content, const std::string& name) {
-  return load_mesh(decode_mesh_file(content, name), name);
+Entity load_mesh(std::span<const std::byte> content, const std::string& name,
+                 const MeshOptions& options) {
+  return load_mesh(decode_mesh_file(content, name), name, options);
 }
 
 }  // namespace crt

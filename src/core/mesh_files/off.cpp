@@ -1,5 +1,4 @@
-// Reads OFF files: Geomview manual, section 4.2.5 (OFF). They may lack their first word there, but
-// not here.
+// Reads OFF files: Geomview manual, section 4.2.5 (OFF). Their first word may be missing.
 #include "core/mesh_files/off.hpp"
 
 #include <fmt/format.h>
@@ -54,39 +53,8 @@ void read_off_face(TextCursor& cursor, MeshBuilder& mesh, std::vector<std::uint3
   mesh.add_face(corners);
 }
 
-}  // namespace
-
-std::optional<std::size_t> off_word_length(std::string_view text) {
-  std::size_t place = 0;
-  for (const std::string_view part : {"ST", "C", "N", "4", "n"}) {
-    if (text.substr(place).starts_with(part)) place += part.size();
-  }
-  constexpr std::string_view name = "OFF";
-  if (!text.substr(place).starts_with(name)) return {};
-  place += name.size();
-  const bool ends =
-      place == text.size() ||
-      std::string_view(" \t\r\n#0123456789").find(text[place]) != std::string_view::npos;
-  return ends ? std::optional(place) : std::nullopt;
-}
-
-void read_off(std::string_view content, MeshBuilder& mesh) {
-  TextCursor cursor(content, {.comments = true});
-  cursor.at_end();
-  const std::optional<std::size_t> length = off_word_length(cursor.rest());
-  if (!length) refuse_line(cursor.line(), "it does not begin with the word OFF");
-  const std::string_view word = cursor.rest().substr(0, *length);
-  if (word.find_first_of("4n") != std::string_view::npos) {
-    refuse_line(cursor.line(), fmt::format("{} has vertices of other than three coordinates; CRT "
-                                           "reads OFF, with C, N and ST before it",
-                                           in_quotes(word)));
-  }
-  cursor.skip(*length);
-  if (const std::string_view mode = cursor.word_of_line(); mode == "BINARY") {
-    refuse_line(cursor.line(), "it is a binary OFF file; CRT reads those that are text");
-  } else if (!mode.empty()) {
-    cursor.put_back(mode);  // the counts are on the line of the word
-  }
+/// Reads what follows the word OFF.
+void read_elements(TextCursor& cursor, MeshBuilder& mesh) {
   const Counts counts = read_counts(cursor);
   for (std::int64_t i = 0; i < counts.vertices; ++i) {
     if (cursor.at_end()) {
@@ -110,6 +78,50 @@ void read_off(std::string_view content, MeshBuilder& mesh) {
                             "with",
                             counts.vertices, counts.faces));
   }
+}
+
+}  // namespace
+
+std::optional<std::size_t> off_word_length(std::string_view text) {
+  std::size_t place = 0;
+  for (const std::string_view part : {"ST", "C", "N", "4", "n"}) {
+    if (text.substr(place).starts_with(part)) place += part.size();
+  }
+  constexpr std::string_view name = "OFF";
+  if (!text.substr(place).starts_with(name)) return {};
+  place += name.size();
+  const bool ends =
+      place == text.size() ||
+      std::string_view(" \t\r\n#0123456789").find(text[place]) != std::string_view::npos;
+  return ends ? std::optional(place) : std::nullopt;
+}
+
+void read_off(std::string_view content, MeshBuilder& mesh) {
+  TextCursor cursor(content, {.comments = true});
+  cursor.at_end();
+  const std::optional<std::size_t> length = off_word_length(cursor.rest());
+  if (!length) {
+    const std::string_view first = cursor.word();
+    if (!integer_of(first)) refuse_line(cursor.line(), "it does not begin with the word OFF");
+    mesh.warn(fmt::format("line {}: it does not begin with the word OFF, but is read as if it did",
+                          cursor.line()));
+    cursor.put_back(first);
+    read_elements(cursor, mesh);
+    return;
+  }
+  const std::string_view word = cursor.rest().substr(0, *length);
+  if (word.find_first_of("4n") != std::string_view::npos) {
+    refuse_line(cursor.line(), fmt::format("{} has vertices of other than three coordinates; CRT "
+                                           "reads OFF, with C, N and ST before it",
+                                           in_quotes(word)));
+  }
+  cursor.skip(*length);
+  if (const std::string_view mode = cursor.word_of_line(); mode == "BINARY") {
+    refuse_line(cursor.line(), "it is a binary OFF file; CRT reads those that are text");
+  } else if (!mode.empty()) {
+    cursor.put_back(mode);  // the counts are on the line of the word
+  }
+  read_elements(cursor, mesh);
 }
 
 }  // namespace crt::core

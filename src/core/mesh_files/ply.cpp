@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -121,7 +122,7 @@ class PlyReader {
           rows_.refuse("its faces stand before its vertices; CRT reads vertices first");
         read_vertices(element);
         has_vertices = true;
-      } else if (element.name == "face") {
+      } else if (element.name == "face" || element.name == "tristrips") {
         read_faces(element);
         has_faces = true;
       } else {
@@ -129,7 +130,9 @@ class PlyReader {
       }
     }
     if (!has_vertices) throw RefusedMesh("it has no element 'vertex'");
-    if (!has_faces) throw RefusedMesh("it has no element 'face', so it has points and no surface");
+    if (!has_faces) {
+      throw RefusedMesh("it has no element 'face' or 'tristrips', so it has points and no surface");
+    }
     if (!rows_.at_end()) rows_.refuse("after this there is more than the header says");
   }
 
@@ -257,12 +260,16 @@ class PlyReader {
   void read_faces(const PlyElement& element) {
     const std::optional<std::size_t> place =
         find_property(element, {"vertex_indices", "vertex_index"});
-    if (!place || !element.properties[*place].count_type)
-      throw RefusedMesh("its faces have no list 'vertex_indices'");
+    if (!place || !element.properties[*place].count_type) {
+      throw RefusedMesh(fmt::format("its {} have no list 'vertex_indices'",
+                                    element.name == "face" ? "faces" : "triangle strips"));
+    }
     for (std::uint64_t row = 0; row < element.count; ++row) {
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        if (i == *place) {
+        if (i == *place && element.name == "face") {
           read_face(element.properties[i]);
+        } else if (i == *place) {
+          read_strips(element.properties[i]);
         } else {
           skip_property(element.properties[i]);
         }
@@ -275,20 +282,46 @@ class PlyReader {
     if (count < 3)
       rows_.refuse(fmt::format("a face needs at least three corners, and here are {}", count));
     corners_.clear();
+    for (std::uint64_t i = 0; i < count; ++i)
+      corners_.push_back(to_vertex(rows_.next(property.type)));
+    add_face(corners_);
+  }
+
+  /// Reads triangle strips, between which the list has -1. In a strip each vertex makes a triangle
+  /// with the two before it, and every second triangle is turned round.
+  void read_strips(const PlyProperty& property) {
+    const std::uint64_t count = read_count(property);
+    std::array<std::uint32_t, 3> last{};
+    std::uint64_t length = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
       const double index = rows_.next(property.type);
-      if (!(index >= 0 && index < static_cast<double>(mesh_.position_count())) ||
-          index != std::floor(index)) {
-        rows_.refuse(
-            fmt::format("a corner is vertex {}; it should be a whole number from 0, less "
-                        "than {}",
-                        index, mesh_.position_count()));
+      if (index == -1) {
+        length = 0;
+        continue;
       }
-      corners_.push_back(static_cast<std::uint32_t>(index));
+      last = {last[1], last[2], to_vertex(index)};
+      ++length;
+      if (length < 3) continue;
+      const auto [a, b, c] = last;
+      add_face(length % 2 != 0 ? std::array{a, b, c} : std::array{b, a, c});
     }
-    FaceCorners face{.positions = corners_};
-    if (has_normals_) face.normals = corners_;
-    if (has_uv_) face.uv = corners_;
+  }
+
+  std::uint32_t to_vertex(double index) const {
+    if (!(index >= 0 && index < static_cast<double>(mesh_.position_count())) ||
+        index != std::floor(index)) {
+      rows_.refuse(
+          fmt::format("a corner is vertex {}; it should be a whole number from 0, less "
+                      "than {}",
+                      index, mesh_.position_count()));
+    }
+    return static_cast<std::uint32_t>(index);
+  }
+
+  void add_face(std::span<const std::uint32_t> corners) {
+    FaceCorners face{.positions = corners};
+    if (has_normals_) face.normals = corners;
+    if (has_uv_) face.uv = corners;
     mesh_.add_face(face);
   }
 

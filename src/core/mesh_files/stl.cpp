@@ -70,8 +70,16 @@ void read_facet(TextCursor& cursor, MeshBuilder& mesh) {
 
 void read_text(std::string_view content, MeshBuilder& mesh) {
   TextCursor cursor(content);
-  while (!cursor.at_end()) {
-    expect(cursor, "solid");
+  for (bool is_first = true; !cursor.at_end(); is_first = false) {
+    const std::string_view begin = cursor.word();
+    if (!is_first && !is_word(begin, "solid")) {
+      mesh.warn(
+          fmt::format("line {}: here is {} where solid or the end should be: it is left out, "
+                      "with all that follows",
+                      cursor.line(), in_quotes(begin)));
+      return;
+    }
+    if (!is_word(begin, "solid")) refuse_word(cursor, begin, "solid");
     cursor.next_line();  // past the name
     for (;;) {
       const std::string_view word = cursor.word();
@@ -83,26 +91,37 @@ void read_text(std::string_view content, MeshBuilder& mesh) {
   }
 }
 
+/// Returns how many triangles to read. A count of 0 or of 2^32 - 1 says nothing. Otherwise, if
+/// there are whole triangles and nothing behind them, the count is wrong, and so it is if the file
+/// is cut off. With something else behind the triangles the count is right.
+std::size_t triangle_count(std::string_view content, MeshBuilder& mesh) {
+  const std::size_t size = content.size() - stl_begin_size;
+  const std::size_t places = size / stl_triangle_size;
+  if (has_size_of_binary_stl(content)) return places;
+  const std::uint64_t claimed = claimed_triangles(content);
+  const bool is_whole = size % stl_triangle_size == 0;
+  const std::string fault = fmt::format(
+      "the file says that it has {} triangles, which take {} bytes; but it has {} bytes, which are "
+      "{} triangles{}",
+      claimed, stl_begin_size + claimed * stl_triangle_size, content.size(), places,
+      is_whole ? "" : " and a part of one");
+  const bool says_nothing = claimed == 0 || claimed == 0xffffffff;
+  // What has less than half of what it says is more likely no STL file at all.
+  if (!says_nothing && claimed > 2 * places) refuse_byte(stl_header_size, fault);
+  const std::size_t read =
+      is_whole ? places : std::min<std::size_t>(says_nothing ? places : claimed, places);
+  mesh.warn(fmt::format("byte {}: {}: it is read as {}", stl_header_size, fault, read));
+  return read;
+}
+
 void read_binary(std::string_view content, MeshBuilder& mesh) {
   if (content.size() < stl_begin_size) {
     throw RefusedMesh(fmt::format(
         "it has {} bytes; a binary STL file begins with a header of {}, and text with 'solid'",
         content.size(), stl_begin_size));
   }
-  const std::size_t places = (content.size() - stl_begin_size) / stl_triangle_size;
-  if (!has_size_of_binary_stl(content)) {
-    refuse_byte(
-        stl_header_size,
-        fmt::format("the file says that it has {} triangles, which take {} bytes; but it "
-                    "has {} bytes, which are {} triangles{}",
-                    claimed_triangles(content),
-                    stl_begin_size + std::uint64_t{claimed_triangles(content)} * stl_triangle_size,
-                    content.size(), places,
-                    (content.size() - stl_begin_size) % stl_triangle_size == 0
-                        ? ""
-                        : " and a part of one"));
-  }
-  for (std::size_t i = 0; i < places; ++i) {
+  const std::size_t count = triangle_count(content, mesh);
+  for (std::size_t i = 0; i < count; ++i) {
     // Each triangle begins with its normal.
     std::size_t place = stl_begin_size + i * stl_triangle_size + 3 * sizeof(float);
     for (int corner = 0; corner < 3; ++corner) {

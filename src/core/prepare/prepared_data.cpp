@@ -149,6 +149,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
     warn_of_no_light();
   }
   warn_of_camera();
+  warn_of_meshes();
 
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   prepare_seconds_ = elapsed.count();

@@ -247,6 +247,7 @@ class PreparedData {
 
   void warn_of_no_light();
   void warn_of_camera();
+  void warn_of_meshes();
 
   Scene scene_;
   std::shared_ptr<const Geometry> geometry_;

@@ -43,6 +43,7 @@ class HeightFacets {
 
   bool is_closed() const { return true; }
   bool is_oriented() const { return true; }
+  bool counts_windings() const { return false; }
   /// Returns the corners of a face, or of a triangle in the plane of a side or the bottom.
   Triangle triangle(std::uint32_t face) const;
   Triangle corners_of_plane(std::uint32_t face) const { return triangle(face); }

@@ -24,6 +24,8 @@ class ExactMeshTier final : public MeshTier {
     return meeting.found();
   }
 
+  bool is_exact() const override { return true; }
+
   int order(const Crossing& first, const Crossing& second) const override {
     if (mesh_.are_in_one_plane(first.face, second.face)) return 0;
     const ExactPlane first_plane = plane_through(mesh_.corners_of_plane(first.face));

@@ -1,9 +1,13 @@
 // The triangles that a line meets are found and put into order, for all that triangles enclose.
 //
-// Triangles are what a MeshTriangles has: is_closed(), is_oriented(), bounds(), triangle(), and a
-// tree of them that a line walks through (root(), visit(), leaf()). A leaf has triangles side by
-// side. About each of them, and of faces that have crossings, is asked whether they lie in one
-// plane, and on which side the solid is.
+// Triangles are what a MeshTriangles has: is_closed(), is_oriented(), counts_windings(), bounds(),
+// triangle(), and a tree of them that a line walks through (root(), visit(), leaf()). A leaf has
+// triangles side by side. About each of them, and of faces that have crossings, is asked whether
+// they lie in one plane, and on which side the solid is.
+//
+// Where windings count, each crossing changes the winding number of the line by 1, and those that
+// do not take it to 0 or from there are dropped. What is left enters and leaves by turns, as what
+// the parity rule leaves does.
 #pragma once
 
 #include <algorithm>
@@ -34,6 +38,12 @@ class MetTriangles {
         most_overlap_(most_overlap()) {}
 
   bool append();
+  /// Appends a crossing for each triangle, in order.
+  void append_all() {
+    begin_ = list_.size();
+    find(false);
+    sort();
+  }
 
  private:
   using Place = CrossingList::iterator;
@@ -71,6 +81,15 @@ class MetTriangles {
   void drop_empty_parts();
   bool agree_with_start();
   bool is_through_origin(const Crossing& crossing) const;
+  /// Returns whether a place with this winding number is inside. Its parity is that of crossings.
+  bool is_inside(int winding) const {
+    return mesh_.counts_windings() ? winding != 0 : winding % 2 != 0;
+  }
+  int winding_at_begin() const;
+  bool is_inside_ahead() const;
+  Place nearest_through_origin();
+  void move_past_origin(Place met);
+  void close_gaps();
   bool is_inside_at_begin() const { return ((list_.size() - begin_) % 2 != 0) != rest_is_odd_; }
   Place put_behind(Place met) const;
   void take_turns();
@@ -89,6 +108,7 @@ class MetTriangles {
   /// line is inside after the last that is not.
   bool has_rest_ = false;
   bool rest_is_odd_ = false;
+  int rest_winding_ = 0;  ///< the winding number there, if windings count
 };
 
 template <class Triangles>
@@ -110,6 +130,7 @@ bool MetTriangles<Triangles>::finish() {
   sort();
   if (ray_.start.face != no_face && !agree_with_start()) return find_all();
   drop_empty_parts();
+  if (mesh_.counts_windings()) close_gaps();
   take_turns();
   return is_inside_at_begin();
 }
@@ -120,6 +141,7 @@ bool MetTriangles<Triangles>::find_all() {
   list_.resize(begin_);
   found_up_to_ = infinity;
   has_rest_ = rest_is_odd_ = false;
+  rest_winding_ = 0;
   find(false);
   return finish();
 }
@@ -202,7 +224,8 @@ template <class Triangles>
 bool MetTriangles<Triangles>::may_be_last(const Crossing& crossing, Facing facing) const {
   if (!ray_.is_first_asked(crossing) || !(highest(crossing) < infinity)) return false;
   if (!mesh_.is_closed()) return true;
-  return facing != Facing::unknown && (ray_.start.face == no_face || lowest(crossing) > 0);
+  return (facing == Facing::outwards || facing == Facing::inwards) &&
+         (ray_.start.face == no_face || lowest(crossing) > 0);
 }
 
 /// Leaves out what is beyond the last crossing that matters. Returns false if that is not alone.
@@ -213,6 +236,7 @@ bool MetTriangles<Triangles>::leave_out_rest() {
   if (!is_alone(*last, std::span(first(), list_.end()))) return false;
   has_rest_ = last->has_rest = true;
   rest_is_odd_ = last->entering == (last_facing_ == Facing::outwards);
+  if (rest_is_odd_) rest_winding_ = last_facing_ == Facing::outwards ? 1 : -1;
   list_.erase(
       std::remove_if(first(), list_.end(),
                      [this](const Crossing& other) { return lowest(other) > found_up_to_; }),
@@ -273,10 +297,13 @@ void MetTriangles<Triangles>::sort() {
   });
 }
 
-/// Drops what the line is in or out of for no length. Of several crossings in one place one is
-/// left if they are odd in number: it is against their normals, or along these, as most are.
+/// Drops what the line is in or out of for no length, and where windings count what leads from one
+/// inner part to another. Of several crossings in one place one is left if they are odd in number,
+/// or lead in or out: it is against their normals, or along these, as most are.
 template <class Triangles>
 void MetTriangles<Triangles>::drop_empty_parts() {
+  const bool counts = mesh_.counts_windings();
+  int winding = counts ? winding_at_begin() : 0;
   auto kept = first();
   for (auto group = first(); group != list_.end();) {
     auto end = group;
@@ -286,11 +313,15 @@ void MetTriangles<Triangles>::drop_empty_parts() {
       entering += end->entering ? 1 : -1;
       is_start = is_start || starts_on(end->face);
     }
-    if ((end - group) % 2 != 0 || is_start) {
+    const bool was_inside = is_inside(winding);
+    winding += static_cast<int>(entering);
+    if (is_inside(winding) != was_inside || is_start) {
       const auto chosen = std::find_if(group, end, [&](const Crossing& crossing) {
         return is_start ? starts_on(crossing.face) : crossing.entering == (entering > 0);
       });
-      *kept++ = *chosen;
+      *kept = *chosen;
+      if (counts) kept->entering = is_inside(winding);
+      ++kept;
     }
     group = end;
   }
@@ -324,32 +355,34 @@ bool MetTriangles<Triangles>::agree_with_start() {
   }
   const bool is_turned = mesh_.are_opposite(found->face, start.face);
   const bool goes_inside = (start.side == Side::inside) != is_turned;
-  const auto ahead = std::count_if(first(), list_.end(), [&](const Crossing& crossing) {
-    return crossing.t > 0 && !is_start(crossing);
-  });
-  if (((ahead % 2 != 0) != rest_is_odd_) == goes_inside) return true;
-  if (has_rest_) return false;
-  auto nearest = list_.end();
-  for (auto met = first(); met != list_.end(); ++met) {
-    if (is_start(*met) || !is_through_origin(*met)) continue;
-    if (nearest == list_.end() || std::abs(met->t) < std::abs(nearest->t)) nearest = met;
+  // One crossing is enough, but for windings.
+  for (std::size_t left = mesh_.counts_windings() ? 2 * list_.size() : 1;
+       left > 0 && is_inside_ahead() != goes_inside; --left) {
+    if (has_rest_) return false;
+    const auto nearest = nearest_through_origin();
+    if (nearest == list_.end()) {
+      list_.erase(std::remove_if(first(), list_.end(), is_start), list_.end());
+      return true;
+    }
+    move_past_origin(nearest);
   }
-  if (nearest == list_.end()) {
-    list_.erase(std::remove_if(first(), list_.end(), is_start), list_.end());
-    return true;
-  }
-  Crossing moved = *nearest;
+  return true;
+}
+
+/// Takes a crossing ahead away, and puts one behind the origin ahead of it.
+template <class Triangles>
+void MetTriangles<Triangles>::move_past_origin(Place met) {
+  Crossing moved = *met;
   const bool was_ahead = moved.t > 0;
-  list_.erase(nearest);
-  if (was_ahead) return true;
+  list_.erase(met);
+  if (was_ahead) return;
   const Vec3 size = mesh_.bounds().upper - mesh_.bounds().lower;
   moved.t = unit_roundoff * largest_component(size) / largest_component(ray_.direction);
   moved.t_low = 0;
   moved.error = moved.t;
   const auto after =
-      std::find_if(first(), list_.end(), [&](const Crossing& met) { return met.t > moved.t; });
+      std::find_if(first(), list_.end(), [&](const Crossing& other) { return other.t > moved.t; });
   list_.insert(after, moved);
-  return true;
 }
 
 /// Returns the crossing that rounding may have put behind another one, whose turn it is not. There
@@ -393,3 +426,5 @@ bool append_met_triangles(const Triangles& triangles, PassingLine& line, const M
 }
 
 }  // namespace crt::core
+
+#include "core/geometry/mesh/met_windings.hpp"

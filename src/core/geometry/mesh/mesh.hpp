@@ -48,6 +48,7 @@ class MeshShape final : public Shape {
   std::uint32_t face_count() const override { return triangles_->size(); }
   Surface surface(std::uint32_t face) const override;
   const FacetAttributes* facet_attributes() const override { return triangles_->attributes(); }
+  const MeshTriangles& triangles() const { return *triangles_; }
   /// Returns only its own bytes and those of the triangles, which others may share.
   std::size_t bytes() const override { return sizeof *this + triangles_->bytes(); }
 

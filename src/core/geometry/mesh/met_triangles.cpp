@@ -29,6 +29,12 @@ bool is_alone(const Crossing& crossing, std::span<const Crossing> all) {
   });
 }
 
+int turns_of(std::span<const Crossing> crossings) {
+  int turns = 0;
+  for (const Crossing& crossing : crossings) turns += crossing.entering ? 1 : -1;
+  return turns;
+}
+
 bool append_crossings(const MeshTriangles& mesh, PassingLine& line, const MeshTier& tier,
                       CrossingList& out) {
   return append_met_triangles(mesh, line, tier, out);
@@ -37,6 +43,11 @@ bool append_crossings(const MeshTriangles& mesh, PassingLine& line, const MeshTi
 bool standard_crossings(const MeshTriangles& mesh, const ObjectRay& ray, CrossingList& out) {
   PassingLine line(ray);
   return append_crossings(mesh, line, StandardMeshTier(ray), out);
+}
+
+void all_met_triangles(const MeshTriangles& mesh, const ObjectRay& ray, CrossingList& out) {
+  PassingLine line(ray);
+  MetTriangles(mesh, line, StandardMeshTier(ray), out).append_all();
 }
 
 }  // namespace crt::core

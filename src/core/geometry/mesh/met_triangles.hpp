@@ -27,6 +27,8 @@ class MeshTier {
   virtual bool meet(const Triangle& triangle, Crossing& crossing) const = 0;
   /// Returns the sign of the first t less the second, and 0 if they are equal.
   virtual int order(const Crossing& first, const Crossing& second) const = 0;
+  /// Returns whether this order is that of the line without rounding.
+  virtual bool is_exact() const = 0;
 };
 
 /// A StandardMeshTier meets planes in rounded arithmetic.
@@ -36,6 +38,7 @@ class StandardMeshTier final : public MeshTier {
 
   bool meet(const Triangle& triangle, Crossing& crossing) const override;
   int order(const Crossing& first, const Crossing& second) const override;
+  bool is_exact() const override { return false; }
 
  private:
   ObjectRay ray_;  ///< without where it starts
@@ -56,11 +59,19 @@ inline double highest(const Crossing& crossing) {
 /// Returns whether no other of some crossings can be where this one is, whatever their errors.
 bool is_alone(const Crossing& crossing, std::span<const Crossing> all);
 
+/// Returns by how much a winding number grows along some crossings of triangles, which a line
+/// enters against their normals.
+int turns_of(std::span<const Crossing> crossings);
+
 /// Appends the crossings of a line with a mesh, as Shape::crossings does.
 bool append_crossings(const MeshTriangles& mesh, PassingLine& line, const MeshTier& tier,
                       CrossingList& out);
 
 /// Appends the crossings of a ray with a mesh in the standard tier.
 bool standard_crossings(const MeshTriangles& mesh, const ObjectRay& ray, CrossingList& out);
+
+/// Appends a crossing for each triangle that a ray's line crosses, in the standard tier: in order,
+/// and entering where it is against the normal.
+void all_met_triangles(const MeshTriangles& mesh, const ObjectRay& ray, CrossingList& out);
 
 }  // namespace crt::core

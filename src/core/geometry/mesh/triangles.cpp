@@ -9,8 +9,11 @@
 #include "core/geometry/canonical_plane.hpp"
 #include "core/geometry/checks.hpp"
 #include "core/geometry/exact_plane.hpp"
+#include "core/geometry/mesh/edges.hpp"
 #include "core/geometry/mesh/equal_positions.hpp"
 #include "core/geometry/mesh/facet_attributes.hpp"
+#include "core/geometry/mesh/self_meetings.hpp"
+#include "core/geometry/mesh/shells.hpp"
 #include "core/geometry/triangle/triangle.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
@@ -39,32 +42,6 @@ void check_indices(std::span<const TriangleIndices> triangles, std::size_t posit
   }
 }
 
-/// An Edge is one use of an edge by a triangle.
-struct Edge {
-  std::uint32_t low;   ///< the lower number of its corners
-  std::uint32_t high;  ///< the higher
-  std::uint32_t triangle;
-  bool upwards;  ///< whether it runs from the lower to the higher
-
-  friend bool operator<(const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  }
-};
-
-std::vector<Edge> edges_of(std::span<const TriangleIndices> triangles) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = triangles[i][k];
-      const std::uint32_t to = triangles[i][(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), i, from < to});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
 /// A PlaneKey is the plane of a triangle. Equal planes have equal numbers.
 struct PlaneKey {
   CanonicalPlane plane;
@@ -83,17 +60,24 @@ PlaneKey plane_key(const Triangle& triangle, std::uint32_t number) {
 
 }  // namespace
 
-MeshTriangles::MeshTriangles(std::span<const Vec3> positions,
-                             std::span<const TriangleIndices> triangles,
-                             const MeshAttributes* attributes) {
+void core::check_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles,
+                      const MeshAttributes* attributes) {
   for (const Vec3& position : positions) check_coordinates("positions", position);
   check_indices(triangles, positions.size());
   if (attributes != nullptr) check_attributes(*attributes, positions.size(), triangles.size());
+}
+
+MeshTriangles::MeshTriangles(std::span<const Vec3> positions,
+                             std::span<const TriangleIndices> triangles,
+                             const MeshAttributes* attributes, std::optional<FillRule> fill,
+                             MeshReport report)
+    : report_(std::move(report)) {
+  check_mesh(positions, triangles, attributes);
   positions_.assign(positions.begin(), positions.end());
   std::vector<TriangleIndices> welded(triangles.begin(), triangles.end());
   std::vector<std::uint32_t> given = weld(welded);
-  std::vector<EdgePair> pairs = find_open_edges(welded);
-  drop_flat(welded, pairs, given);
+  MeshEdges edges = find_edges(positions_, welded);
+  drop_flat(welded, edges, given);
   if (placed_.empty()) {
     reject_mesh("a mesh needs at least one triangle that has an area", "triangles");
   }
@@ -102,22 +86,26 @@ MeshTriangles::MeshTriangles(std::span<const Vec3> positions,
     for (const std::uint32_t index : placed.corners) box.include(positions_[index]);
     bounds_.include(box);
   }
+  oriented_ = edges.unbalanced.empty();
+  fault_ = edges.open.empty() && fill == FillRule::nonzero ? edges.unbalanced : edges.open;
+  report_.fill = fill.value_or(FillRule::even_odd);
   const bool turned = is_closed() && oriented_ && turn_outwards();
   find_planes();
   build_tree();
-  if (is_closed() && oriented_) find_facing(pairs);
+  if (is_closed() && oriented_) find_facing(fill, edges);
+  add_mesh_warnings(*this, edges, report_);
   if (attributes == nullptr) return;
   attributes_ = std::make_unique<const FacetAttributes>(
-      *attributes, GivenFacets{triangles, given, turned}, *this, pairs);
+      *attributes, GivenFacets{triangles, given, turned}, *this, edges.pairs);
   if (attributes_->empty()) attributes_.reset();
 }
 
 MeshTriangles::~MeshTriangles() = default;
 
-/// Takes those triangles that have an area, and drops the pairs of others. `given` has what number
-/// each was given with, and then has it of each that was taken.
-void MeshTriangles::drop_flat(std::span<const TriangleIndices> triangles,
-                              std::vector<EdgePair>& pairs, std::vector<std::uint32_t>& given) {
+/// Takes those triangles that have an area, and drops others from what edges say. `given` has what
+/// number each was given with, and then has it of each that was taken.
+void MeshTriangles::drop_flat(std::span<const TriangleIndices> triangles, MeshEdges& edges,
+                              std::vector<std::uint32_t>& given) {
   constexpr std::uint32_t dropped = 0xffffffffu;
   std::vector<std::uint32_t> numbers(triangles.size(), dropped);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -125,13 +113,17 @@ void MeshTriangles::drop_flat(std::span<const TriangleIndices> triangles,
     if (!has_area({.a = positions_[a], .b = positions_[b], .c = positions_[c]})) continue;
     numbers[i] = size();
     given[size()] = given[i];
+    edges.shells[size()] = edges.shells[i];
     places_.push_back(size());
     placed_.push_back({.corners = triangles[i], .number = size(), .plane = {}});
   }
   given.resize(size());
-  for (EdgePair& pair : pairs) pair = {numbers[pair.one], numbers[pair.other]};
-  std::erase_if(pairs,
+  edges.shells.resize(size());
+  for (EdgePair& pair : edges.pairs) pair = {numbers[pair.one], numbers[pair.other]};
+  std::erase_if(edges.pairs,
                 [](const EdgePair& pair) { return pair.one == dropped || pair.other == dropped; });
+  for (std::uint32_t& triangle : edges.repeated) triangle = numbers[triangle];
+  std::erase(edges.repeated, dropped);
 }
 
 /// Makes equal corners one, and drops triangles of which two corners are one. What these had for
@@ -151,44 +143,6 @@ std::vector<std::uint32_t> MeshTriangles::weld(std::vector<TriangleIndices>& tri
   }
   triangles.resize(left.size());
   return left;
-}
-
-/// Returns the pairs of triangles that alone have an edge.
-std::vector<EdgePair> MeshTriangles::find_open_edges(std::span<const TriangleIndices> triangles) {
-  const std::vector<Edge> edges = edges_of(triangles);
-  std::vector<EdgePair> pairs;
-  pairs.reserve(edges.size() / 2);
-  std::size_t count = 0;
-  std::size_t open = 0;
-  const Edge* first_open = nullptr;
-  oriented_ = true;
-  for (std::size_t begin = 0; begin < edges.size();) {
-    std::size_t end = begin;
-    std::size_t upwards = 0;
-    const auto is_same = [&](const Edge& edge) {
-      return edge.low == edges[begin].low && edge.high == edges[begin].high;
-    };
-    for (; end < edges.size() && is_same(edges[end]); ++end) upwards += edges[end].upwards ? 1 : 0;
-    const std::size_t uses = end - begin;
-    oriented_ = oriented_ && 2 * upwards == uses;
-    if (uses == 2) pairs.push_back({edges[begin].triangle, edges[begin + 1].triangle});
-    ++count;
-    if (uses % 2 != 0) {
-      ++open;
-      if (first_open == nullptr || edges[begin].triangle < first_open->triangle) {
-        first_open = &edges[begin];
-      }
-    }
-    begin = end;
-  }
-  if (first_open == nullptr) return pairs;
-  const Vec3& from = positions_[first_open->low];
-  const Vec3& to = positions_[first_open->high];
-  fault_ = fmt::format(
-      "{} of its {} edges belong to an odd number of triangles: the first is from ({}, {}, {}) to "
-      "({}, {}, {})",
-      open, count, from.x, from.y, from.z, to.x, to.y, to.z);
-  return pairs;
 }
 
 /// Turns all triangles round if their normals point into the solid. Returns whether it did.
@@ -264,11 +218,18 @@ void MeshTriangles::sort_along_tree(std::span<const std::uint32_t> order) {
   placed_ = std::move(sorted);
 }
 
-void MeshTriangles::find_facing(std::span<const EdgePair> pairs) {
-  const std::vector<Facing> facings = core::find_facing(*this, pairs);
+void MeshTriangles::find_facing(std::optional<FillRule> fill, const MeshEdges& edges) {
+  const SelfMeetings meetings(*this);
+  const Fronts fronts = find_fronts(*this, meetings, edges.pairs);
+  if (!fill && are_turned_outwards(*this, fronts, edges.shells)) report_.fill = FillRule::nonzero;
+  bool all_known = true;
   for (Placed& placed : placed_) {
-    placed.plane.facing = static_cast<std::uint32_t>(facings[placed.number]) & 3u;
+    const Facing facing = facing_by(fronts[placed.number], report_.fill);
+    placed.plane.facing = static_cast<std::uint32_t>(facing) & 3u;
+    all_known = all_known && (facing == Facing::outwards || facing == Facing::inwards);
   }
+  find_overlaps(*this, meetings, fronts, edges.shells, report_);
+  counts_windings_ = report_.fill == FillRule::nonzero && !all_known;
 }
 
 TriangleLanes MeshTriangles::placed_corners(std::uint32_t first, std::uint32_t count) const {

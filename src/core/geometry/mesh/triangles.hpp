@@ -5,6 +5,11 @@
 // to an even number of them. A point then is inside if a line from it to infinity crosses an odd
 // number of triangles: the parity rule. It needs no orientation, and says what is inside where
 // triangles pass through one another.
+//
+// By the nonzero rule every edge must run as often in one direction as in the other, and a point is
+// inside if its winding number is not 0. Where no winding number is beyond -1 and 1 the two rules
+// say the same, and the parity rule holds, as it takes less time. That is so if each triangle is
+// proven to face out of the solid or into it.
 #pragma once
 
 #include <array>
@@ -18,22 +23,29 @@
 #include "core/geometry/compact_bvh.hpp"
 #include "core/geometry/mesh/facing.hpp"
 #include "core/geometry/mesh/passing_line.hpp"
+#include "crt/mesh.hpp"
 #include "crt/primitives.hpp"
 
 namespace crt {
 
-struct MeshAttributes;
-
 namespace core {
 class FacetAttributes;
-}
+struct MeshEdges;
+
+/// Throws Error (invalid_argument) for what no mesh can be made of: coordinates, indices and
+/// attributes out of range.
+void check_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles,
+                const MeshAttributes* attributes);
+}  // namespace core
 
 class MeshTriangles {
  public:
-  /// Throws Error (invalid_argument) for coordinates, indices and attributes out of range, and if
-  /// no triangle has an area.
+  /// Takes triangles, of which a report says what has been changed. Without `fill` the rule is as
+  /// the shells are turned. Throws Error (invalid_argument) for coordinates, indices and attributes
+  /// out of range, and if no triangle has an area.
   MeshTriangles(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles,
-                const MeshAttributes* attributes = nullptr);
+                const MeshAttributes* attributes = nullptr,
+                std::optional<FillRule> fill = FillRule::even_odd, MeshReport report = {});
   ~MeshTriangles();
   MeshTriangles(const MeshTriangles&) = delete;
   MeshTriangles& operator=(const MeshTriangles&) = delete;
@@ -134,6 +146,10 @@ class MeshTriangles {
   /// Returns whether each edge is used as often in one direction as in the other. The normals then
   /// point out of the solid, unless triangles pass through one another.
   bool is_oriented() const { return oriented_; }
+  /// Returns whether winding numbers say what is inside, and not the parity rule.
+  bool counts_windings() const { return counts_windings_; }
+  /// Returns what is known of the triangles.
+  const MeshReport& report() const { return report_; }
   /// Returns why the triangles do not enclose a solid, or nothing if they do.
   const std::string& fault() const { return fault_; }
 
@@ -143,20 +159,21 @@ class MeshTriangles {
 
  private:
   std::vector<std::uint32_t> weld(std::vector<TriangleIndices>& triangles);
-  std::vector<core::EdgePair> find_open_edges(std::span<const TriangleIndices> triangles);
-  void drop_flat(std::span<const TriangleIndices> triangles, std::vector<core::EdgePair>& pairs,
+  void drop_flat(std::span<const TriangleIndices> triangles, core::MeshEdges& edges,
                  std::vector<std::uint32_t>& given);
   bool turn_outwards();
   void find_planes();
   void build_tree();
   void sort_along_tree(std::span<const std::uint32_t> order);
-  void find_facing(std::span<const core::EdgePair> pairs);
+  void find_facing(std::optional<FillRule> fill, const core::MeshEdges& edges);
 
   std::vector<Vec3> positions_;  ///< and one more, as lanes are read with one number too many
   std::vector<Placed> placed_;
   std::vector<std::uint32_t> places_;  ///< among these, by number
   std::string fault_;
   bool oriented_ = false;
+  bool counts_windings_ = false;
+  MeshReport report_;
   core::Bounds bounds_;
   core::CompactBvh tree_;
   std::unique_ptr<const core::FacetAttributes> attributes_;

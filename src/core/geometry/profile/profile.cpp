@@ -159,6 +159,23 @@ std::shared_ptr<const Profile> make_profile(std::span<const Contour> contours) {
   return std::make_shared<const Profile>(contours);
 }
 
+ContourCorners core::corners_of(const Contour& contour) {
+  ContourCorners corners;
+  const auto is_at = [&](std::size_t corner, std::size_t other) {
+    return place_of(contour[corner]) == place_of(contour[other]);
+  };
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const bool is_repeated =
+        !corners.kept.empty() && contour[i].bulge == 0 && is_at(i, corners.kept.back());
+    if (!is_repeated) corners.kept.push_back(i);
+  }
+  if (corners.kept.size() > 1 && is_at(corners.kept.front(), corners.kept.back())) {
+    corners.closing = corners.kept.back();
+    corners.kept.pop_back();
+  }
+  return corners;
+}
+
 Profile::Profile(std::span<const Contour> contours) : contours_(contours.begin(), contours.end()) {
   if (contours.empty()) reject_profile("it must have a contour");
   std::size_t corners = 0;
@@ -174,11 +191,10 @@ Profile::Profile(std::span<const Contour> contours) : contours_(contours.begin()
 
 void Profile::add(const Contour& contour, std::size_t number) {
   for (std::size_t i = 0; i < contour.size(); ++i) check_corner(contour[i], name_of(number, i));
-  std::vector<ProfilePoint> corners(contour.begin(), contour.end());
-  if (corners.size() > 1 && place_of(corners.front()) == place_of(corners.back())) {
-    corners.front().bulge = corners.back().bulge;
-    corners.pop_back();
-  }
+  const ContourCorners names = corners_of(contour);
+  std::vector<ProfilePoint> corners;
+  for (const std::size_t corner : names.kept) corners.push_back(contour[corner]);
+  if (!corners.empty()) corners.front().bulge = contour[names.closing].bulge;
   const std::size_t first_piece = pieces_.size();
   bool has_area = false;
   double length = 0;
@@ -188,8 +204,9 @@ void Profile::add(const Contour& contour, std::size_t number) {
     const double bulge = corners[next].bulge;
     Piece piece{.from = place_of(corners[i]), .to = place_of(corners[next])};
     if (largest_component(piece.to - piece.from) < smallest_length) {
-      reject_profile(fmt::format("{} and {} must be at least 1e-100 apart", name_of(number, i),
-                                 name_of(number, next)));
+      reject_profile(fmt::format("{} and {} must be at least 1e-100 apart",
+                                 name_of(number, names.kept[i]),
+                                 name_of(number, names.kept[next])));
     }
     piece.share_from = length;
     const double chord = glm::length(piece.to - piece.from);
@@ -201,7 +218,7 @@ void Profile::add(const Contour& contour, std::size_t number) {
         reject_profile(
             fmt::format("the arc to {} is too flat, or too small at its place, for "
                         "doubles to say its circle (its bulge is {})",
-                        name_of(number, next), bulge));
+                        name_of(number, names.kept[next]), bulge));
       }
       arc->piece = static_cast<std::uint32_t>(pieces_.size());
       piece.arc = static_cast<std::uint32_t>(arcs_.size());

@@ -19,6 +19,18 @@
 
 namespace crt {
 
+namespace core {
+
+/// ContourCorners are the numbers of a contour's corners without those that repeat the one before.
+struct ContourCorners {
+  std::vector<std::size_t> kept;
+  std::size_t closing = 0;  ///< the corner with the bulge of the piece back to the first
+};
+
+ContourCorners corners_of(const Contour& contour);
+
+}  // namespace core
+
 class Profile {
  public:
   explicit Profile(std::span<const Contour> contours);

@@ -185,13 +185,10 @@ void validate(const Revolution& revolution) {
   const Profile::Piece* piece = profile.pieces().data();
   for (std::size_t i = 0; i < profile.contours().size(); ++i) {
     const Contour& contour = profile.contours()[i];
-    const bool is_repeated = contour.size() > 1 && contour.front().x == contour.back().x &&
-                             contour.front().y == contour.back().y;
-    const std::size_t corners = contour.size() - (is_repeated ? 1 : 0);
-    for (std::size_t k = 0; k < corners; ++k) check_corner(contour[k], {i, k});
-    for (std::size_t k = 0; k < corners; ++k) {
-      check_piece(profile, *piece++, {i, (k + 1) % corners});
-    }
+    const std::vector<std::size_t> corners = corners_of(contour).kept;
+    for (const std::size_t corner : corners) check_corner(contour[corner], {i, corner});
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      check_piece(profile, *piece++, {i, corners[(k + 1) % corners.size()]});
   }
 }
 
