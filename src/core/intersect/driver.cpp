@@ -181,7 +181,11 @@ void Accelerator::all(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspac
 
 void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
                               RayWorkspace& work) const {
-  test_all(ray, work, [&](std::uint32_t object) {
+  // What holds the start has a box around it, so the ray need not be followed any farther.
+  WorldRay here = ray;
+  here.t_min = 0;
+  here.t_max = std::numeric_limits<double>::min();
+  test_all(here, work, [&](std::uint32_t object) {
     Stayed query(*this, ray, work);
     query.test(object);
     if (!query.result.inside) return;
