@@ -57,6 +57,9 @@ class Accelerator {
   /// Finds whether a ray starts inside of one solid object, and where it leaves that.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
+  /// Returns whether all surfaces surely pass by a box. It looks at all objects.
+  bool all_pass_by(const Bounds& box) const;
+
   /// Puts what all() has appended into order.
   void sort(const WorldRay& ray, std::vector<RayHit>& crossings, RayWorkspace& work) const {
     sort_crossings(compiled_, ray, objects_share_surfaces_, crossings, work);

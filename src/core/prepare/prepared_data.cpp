@@ -219,6 +219,10 @@ void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
   });
 }
 
+bool PreparedData::all_pass_by(const Bounds& box) const {
+  return accelerator_->all_pass_by(box);
+}
+
 bool PreparedData::is_on_surface(const Vec3& point, RayWorkspace& work) const {
   constexpr double relative_width = 0x1p-26;
   const double width = relative_width * largest_component(point);

@@ -67,15 +67,15 @@ class Writer:
 {lights}"""
 
     def background(self) -> str:
-        """Says what there is behind all things. POV-Ray's panoramas begin at x and go on to z, so
-        what is their middle column is at -x before it is turned."""
+        """Says what there is behind all things. POV-Ray's panoramas begin at x and go on to z,
+        so their middle column is at -x and what is right of it towards -z."""
         background = self.scene.background
         if not isinstance(background, Panorama):
             return f"background {{ rgb {vector(background)} }}"
         path = self.script.with_name(f"{self.script.stem}-around.ppm")
         data_files.write_ppm(path, background)
         return (f'sky_sphere {{ pigment {{ image_map {{ ppm "{path.name}" gamma 1 map_type 1'
-                " interpolate 2 } rotate y * 90 } }")
+                " interpolate 2 } scale <1, 1, -1> rotate y * 90 } }")
 
     def camera(self) -> str:
         scene, camera = self.scene, self.scene.camera
