@@ -77,8 +77,8 @@ bool is_worth_it(TraceContext& context, const PathState& before, const Rgb& weig
 
 /// Takes a ray into the next round. If its sample has followed as many as it may, it and all that
 /// wait are dropped.
-void take(RenderStats& stats, const PathRay& ray, SampleWork& work, Sample& sample,
-          PathRays& next) {
+[[gnu::always_inline]] inline void take(RenderStats& stats, const PathRay& ray, SampleWork& work,
+                                        Sample& sample, PathRays& next) {
   if (work.rays == most_rays_per_sample) {
     ++stats.samples_over_ray_bound;
     for (const PathRay& waiting : work.pending.all()) {

@@ -170,7 +170,8 @@ inline Lanes to_doubles(const FloatLanes& a) {
 }
 
 /// Returns as bits which of eight numbers in a row are equal to `one`.
-inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t one) {
+[[gnu::always_inline]] inline std::uint32_t which_of_eight(const std::uint32_t* numbers,
+                                                           std::uint32_t one) {
   return mask_of(lanes_at<BitOctet>(numbers) == one);
 }
 
