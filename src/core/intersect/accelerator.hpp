@@ -147,12 +147,13 @@ class Accelerator {
                          RayWorkspace& work) const;
   RayMask leave_isolated(const WorldRay& ray, RayHit& hit, RayWorkspace& work) const;
   /// Does so for those lanes of a group that start into one such solid.
-  template <class SomeRays>
-  RayMask leave_isolated(const BoundingProxy& solid, const SomeRays& rays, std::size_t group,
+  template <class Real>
+  RayMask leave_isolated(const BoundingProxy& solid, const Rays<Real>& rays, std::size_t group,
                          RayMask lanes, std::span<RayHit> hits, RayWorkspace& work) const;
-  /// Does so for one ray by the exact test.
-  bool leave_isolated(const BoundingProxy& solid, const WorldRay& ray, RayHit& hit,
-                      RayWorkspace& work) const;
+  /// Does so for some rays by the tests of that solid alone.
+  template <class Real>
+  RayMask leave_by_tests(const BoundingProxy& solid, const Rays<Real>& rays, RayMask some,
+                         std::span<RayHit> hits, RayWorkspace& work) const;
   /// Gathers the crossings around the place of a hit with coincident ones into `work`. Returns the
   /// first of those at it.
   RayHit gather_coincident(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;

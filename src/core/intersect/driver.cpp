@@ -163,6 +163,34 @@ void Accelerator::find_nearest(const Rays<Real>& rays, RayMask some, std::span<R
   });
 }
 
+template <class Real>
+RayMask Accelerator::leave_by_tests(const BoundingProxy& solid, const Rays<Real>& rays,
+                                    RayMask some, std::span<RayHit> hits,
+                                    RayWorkspace& work) const {
+  const Starts<Real> starts = noted_starts(rays, some);
+  RayPacketOf<Real> packet(rays, starts, some);
+  const AskNearest asked{hits};
+  ObjectTests<Real, AskNearest> tests(*this, packet, some, asked, work);
+  tests.test(solid, bounded_, some);
+  const Bounds margin = box_around(solid.object);
+  RayMask done = 0;
+  for_each_ray(some, [&](std::size_t i) {
+    const WorldRay& ray = rays.ray(i);
+    const PlainRay<double> line = plain_ray(ray);
+    const bool leaves = hits[i].found() && is_within(margin, line, ray.t_min) &&
+                        is_within(margin, line, packet.limit(i));
+    if (!leaves) hits[i] = {};
+    done |= mask_of(leaves) << i;
+  });
+  return done;
+}
+template RayMask Accelerator::leave_by_tests<double>(const BoundingProxy&, const Rays<double>&,
+                                                     RayMask, std::span<RayHit>,
+                                                     RayWorkspace&) const;
+template RayMask Accelerator::leave_by_tests<Lanes>(const BoundingProxy&, const Rays<Lanes>&,
+                                                    RayMask, std::span<RayHit>,
+                                                    RayWorkspace&) const;
+
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
   RayHit hit;
   if (isolated_.empty() || leave_isolated(ray, hit, work) == 0)
