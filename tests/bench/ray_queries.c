@@ -1,12 +1,16 @@
-// Times crt_intersect for ray_queries.py:  ray_queries SCENE.crt RAYS_PER_SIDE REPETITIONS
+// Times queries for ray_queries.py, and asks them for figures.py:
 //
-// Prints the seconds of each repetition. The rays are a grid along z, over x and y from -4 to 4,
+//   ray_queries SCENE.crt RAYS_PER_SIDE REPETITIONS [single|crossings]
+//
+// Prints the seconds of each repetition: of one batch, of one ray after the other, or of all
+// crossings of one ray after the other. The rays are a grid along z, over x and y from -4 to 4,
 // from z = -20.
 #define _POSIX_C_SOURCE 199309L  // clock_gettime
 #include <crt/crt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 static double now(void) {
@@ -24,8 +28,24 @@ static void aim(crt_ray* rays, size_t side) {
   }
 }
 
+static int ask(const char* kind, crt_prepared* prepared, const crt_ray* rays, size_t count,
+               crt_hit* hits) {
+  size_t crossings = 0;
+  int failed = 0;
+  if (strcmp(kind, "batch") == 0) return crt_intersect(prepared, rays, 0, count, hits, 0);
+  for (size_t i = 0; i < count && !failed; ++i) {
+    if (strcmp(kind, "single") == 0) {
+      failed = crt_intersect(prepared, &rays[i], 0, 1, &hits[i], 0);
+    } else {
+      failed = crt_crossings(prepared, &rays[i], hits, count, &crossings);
+    }
+  }
+  return failed;
+}
+
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
+  if (argc != 4 && argc != 5) return 2;
+  const char* const kind = argc == 5 ? argv[4] : "batch";
   const size_t side = strtoul(argv[2], NULL, 10), count = side * side;
   const int repetitions = atoi(argv[3]);
   crt_ray* rays = malloc(count * sizeof *rays);
@@ -38,7 +58,7 @@ int main(int argc, char** argv) {
   if (!failed) aim(rays, side);
   for (int i = 0; i < repetitions && !failed; ++i) {
     const double start = now();
-    failed = crt_intersect(prepared, rays, 0, count, hits, 0);
+    failed = ask(kind, prepared, rays, count, hits);
     printf("%.9f\n", now() - start);
   }
   if (failed) fprintf(stderr, "ray_queries: %s\n", crt_error_message());

@@ -22,7 +22,7 @@ from trade import measure as trade_measure  # noqa: E402
 
 LARGE = ("-1e3", "-1e4", "-1e5", "-1e6", "-500", "-4096")
 RENDERED = ("tunnel-1e1", "lens-union-1e2", "mirror-room", "glass", "nested-50", "mesh-1e4",
-            "height-field-512")
+            "height-field-512", "lens-scene", "mirror-cabinet")
 
 
 MEASURED = ("wires", "defocus", "flat")

@@ -1,6 +1,7 @@
 // What isolated solids and the tree for few objects save changes no answer.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -261,4 +262,41 @@ TEST_CASE("transparent solids keep apart whose boxes do not touch") {
   CHECK(is_isolated(crowd));
   crowd.emplace_back(Sphere{.center = {-1, 0, 0}, .radius = 0.5});
   CHECK_FALSE(is_isolated(crowd));
+}
+
+TEST_CASE("where all surfaces pass by a box, the same solids hold all of its points") {
+  for (const double place : {0.0, 1e3, 1e9}) {
+    Scene scene = glass_and_opaque(0.5, 1, Vec3(place), Precision::standard)[0];
+    for (const Entity& plane : planes) scene.entities.push_back(placed(plane, 1, Vec3(place)));
+    const PreparedData data(scene);
+    Numbers numbers(seed);
+    RayWorkspace work;
+    std::vector<RayHit> exits;
+    const auto holders_of = [&](const Vec3& point) {
+      data.surrounding({.origin = point, .direction = numbers.direction()}, exits, work);
+      std::vector<std::uint32_t> objects;
+      for (const RayHit& exit : exits) objects.push_back(exit.object);
+      std::sort(objects.begin(), objects.end());
+      return objects;
+    };
+    int passed_by = 0;
+    int in_solids = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 middle = Vec3(place) + Vec3(numbers.within(-2, 22), 0, 0) + numbers.point(4);
+      Bounds box;
+      box.include_around(middle, Vec3(std::pow(10, -numbers.within(0, 6))));
+      if (!data.all_pass_by(box)) continue;
+      ++passed_by;
+      const std::vector<std::uint32_t> holders = holders_of(middle);
+      in_solids += holders.empty() ? 0 : 1;
+      for (unsigned corner = 0; corner < 8; ++corner) {
+        const auto end = [&](unsigned axis) {
+          return ((corner >> axis & 1u) != 0 ? box.lower : box.upper)[static_cast<int>(axis)];
+        };
+        REQUIRE(holders_of({end(0), end(1), end(2)}) == holders);
+      }
+    }
+    CHECK(passed_by > 500);
+    CHECK(in_solids > 100);
+  }
 }

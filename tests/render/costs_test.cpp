@@ -104,6 +104,8 @@ TEST_CASE(
   scene.camera.aperture = 10;
   CHECK(stats_of(scene).media_lookups == 1);
   scene.settings.dof_samples = 4;
+  CHECK(stats_of(scene).media_lookups == 1);
+  scene.camera.aperture = 1e5;  // Now the lens reaches to solids.
   CHECK(stats_of(scene).media_lookups == 4 * pixels);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <crt/elementary.hpp>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/math/direction_and_length.hpp"
@@ -53,6 +54,14 @@ CameraRays::CameraRays(const Camera& camera, int width, int height, int compat)
   const double half_length = elementary::tan(half_angle);
   half_across_ = (turns_across(projection_) ? half_angle : half_length) * aspect;
   half_up_ = projection_ == Projection::spherical ? half_angle : half_length;
+}
+
+Bounds CameraRays::lens_bounds() const {
+  constexpr double farthest_point = 2;  // of all aperture shapes
+  const Vec3 reach = farthest_point * lens_radius_ * (glm::abs(lens_right_) + glm::abs(up_));
+  Bounds bounds;
+  bounds.include_around(position_, reach);
+  return bounds;
 }
 
 CameraRay CameraRays::ray(double x, double y) const {

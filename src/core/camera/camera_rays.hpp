@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/camera/aperture_shape.hpp"
+#include "core/geometry/bounds.hpp"
 #include "core/ray/plain_ray.hpp"
 #include "crt/camera.hpp"
 #include "crt/vec.hpp"
@@ -62,6 +63,9 @@ class CameraRays {
   LensPointLanes lens_points(const Lanes& u, const Lanes& v) const {
     return aperture_points(aperture_shape_, u, v);
   }
+
+  /// Returns a box around all points of the lens.
+  Bounds lens_bounds() const;
 
   /// Returns whether the lens has any size.
   bool has_lens() const { return lens_radius_ > 0; }

@@ -112,6 +112,12 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
 
 Accelerator::~Accelerator() = default;
 
+bool Accelerator::all_pass_by(const Bounds& box) const {
+  const Bounds around = box.grown(2 * margin_);
+  return core::all_pass_by(compiled_, unbounded_, around) &&
+         core::all_pass_by(compiled_, bounded_, around);
+}
+
 MemoryUse Accelerator::memory() const {
   MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
   for (const BoundingProxies* proxies : {&bounded_, &unbounded_}) {

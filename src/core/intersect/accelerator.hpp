@@ -59,6 +59,9 @@ class Accelerator {
   /// Finds whether a ray starts inside of one solid object, and where it leaves that.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
+  /// Returns whether all surfaces surely pass by a box. It looks at all objects.
+  bool all_pass_by(const Bounds& box) const;
+
   /// Puts what all() has appended into order.
   void sort(const WorldRay& ray, std::vector<RayHit>& crossings, RayWorkspace& work) const {
     sort_crossings(compiled_, ray, objects_share_surfaces_, crossings, work);
@@ -131,6 +134,9 @@ class Accelerator {
   template <class Real, class Asked>
   RayMask follow(const Rays<Real>& rays, const Starts<Real>& starts, RayMask some,
                  const Asked& asked, RayWorkspace& work) const;
+  /// Calls test(object) for all objects that may hold the start of a ray, in any order.
+  template <class Test>
+  void test_around(const WorldRay& ray, RayWorkspace& work, const Test& test) const;
   /// Calls test(object) for all objects that a ray may meet, in any order.
   template <class Test>
   void test_all(const WorldRay& ray, RayWorkspace& work, const Test& test) const;
@@ -163,15 +169,16 @@ class Accelerator {
                          RayWorkspace& work) const;
   RayMask leave_isolated(const WorldRay& ray, RayHit& hit, RayWorkspace& work) const;
   /// Does so for those lanes of a group that start into one such solid.
-  template <class SomeRays>
-  RayMask leave_isolated(const BoundingProxy& solid, const SomeRays& rays, std::size_t group,
+  template <class Real>
+  RayMask leave_isolated(const BoundingProxy& solid, const Rays<Real>& rays, std::size_t group,
                          RayMask lanes, std::span<RayHit> hits, RayWorkspace& work) const;
-  /// Does so for one ray by the exact test.
-  bool leave_isolated(const BoundingProxy& solid, const WorldRay& ray, RayHit& hit,
-                      RayWorkspace& work) const;
   /// Returns whether no other crossing with the same face of a leaf is nearer to the ray's end.
   static bool is_nearest_to_end(const PlacedLeaf& leaf, const WorldRay& ray, const RayHit& hit,
                                 RayWorkspace& work);
+  /// Does so for some rays by the tests of that solid alone.
+  template <class Real>
+  RayMask leave_by_tests(const BoundingProxy& solid, const Rays<Real>& rays, RayMask some,
+                         std::span<RayHit> hits, RayWorkspace& work) const;
   /// Gathers the crossings around the place of a hit with coincident ones into `work`. Returns the
   /// first of those at it.
   RayHit gather_coincident(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;

@@ -112,6 +112,15 @@ void Accelerator::test_all(const WorldRay& ray, RayWorkspace& work, const Test& 
   traverse(packet, tests);
 }
 
+template <class Test>
+void Accelerator::test_around(const WorldRay& ray, RayWorkspace& work, const Test& test) const {
+  // What holds the start has a box around it, so the ray need not be followed any farther.
+  WorldRay here = ray;
+  here.t_min = 0;
+  here.t_max = std::numeric_limits<double>::min();
+  test_all(here, work, test);
+}
+
 PacketStartsOf<1> Accelerator::noted_starts(const WorldRay& ray, RayMask) const {
   const StartPoint& start = ray.start;
   PacketStartsOf<1> starts;
@@ -163,6 +172,34 @@ void Accelerator::find_nearest(const Rays<Real>& rays, RayMask some, std::span<R
   });
 }
 
+template <class Real>
+RayMask Accelerator::leave_by_tests(const BoundingProxy& solid, const Rays<Real>& rays,
+                                    RayMask some, std::span<RayHit> hits,
+                                    RayWorkspace& work) const {
+  const Starts<Real> starts = noted_starts(rays, some);
+  RayPacketOf<Real> packet(rays, starts, some);
+  const AskNearest asked{hits};
+  ObjectTests<Real, AskNearest> tests(*this, packet, some, asked, work);
+  tests.test(solid, bounded_, some);
+  const Bounds margin = box_around(solid.object);
+  RayMask done = 0;
+  for_each_ray(some, [&](std::size_t i) {
+    const WorldRay& ray = rays.ray(i);
+    const PlainRay<double> line = plain_ray(ray);
+    const bool leaves = hits[i].found() && is_within(margin, line, ray.t_min) &&
+                        is_within(margin, line, packet.limit(i));
+    if (!leaves) hits[i] = {};
+    done |= mask_of(leaves) << i;
+  });
+  return done;
+}
+template RayMask Accelerator::leave_by_tests<double>(const BoundingProxy&, const Rays<double>&,
+                                                     RayMask, std::span<RayHit>,
+                                                     RayWorkspace&) const;
+template RayMask Accelerator::leave_by_tests<Lanes>(const BoundingProxy&, const Rays<Lanes>&,
+                                                    RayMask, std::span<RayHit>,
+                                                    RayWorkspace&) const;
+
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
   RayHit hit;
   if (isolated_.empty() || leave_isolated(ray, hit, work) == 0)
@@ -181,7 +218,7 @@ void Accelerator::all(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspac
 
 void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
                               RayWorkspace& work) const {
-  test_all(ray, work, [&](std::uint32_t object) {
+  test_around(ray, work, [&](std::uint32_t object) {
     Stayed query(*this, ray, work);
     query.test(object);
     if (!query.result.inside) return;
@@ -194,11 +231,9 @@ void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
 Surrounding Accelerator::innermost(const Vec3& point, RayWorkspace& work) const {
   // Along this direction the order of solids is found. It runs along no face that people make.
   const WorldRay line{.origin = point, .direction = {0.7390851, 0.5671433, 0.3628943}};
-  WorldRay start = line;
-  start.t_max = std::numeric_limits<double>::min();
   Surrounding innermost;
   double nearest = infinity;
-  test_all(start, work, [&](std::uint32_t object) {
+  test_around(line, work, [&](std::uint32_t object) {
     Located query(*this, line, work);
     query.test(object);
     if (query.leaf == nothing) return;

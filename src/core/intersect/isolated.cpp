@@ -74,6 +74,14 @@ bool passes_by(const BoundingProxy& plane, const ProxyAxis& axis, const Bounds& 
 
 }  // namespace
 
+bool all_pass_by(const CompiledScene& scene, const BoundingProxies& proxies, const Bounds& box) {
+  return std::all_of(proxies.list.begin(), proxies.list.end(), [&](const BoundingProxy& proxy) {
+    return proxy.kind == BoundingProxy::Kind::plane
+               ? passes_by(proxy, proxies.axes[proxy.detail], box)
+               : !scene.objects[proxy.object].bounds.touches(box);
+  });
+}
+
 std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
                                             std::span<const SharedMaterial> materials,
                                             std::span<const std::uint32_t> bounded,
@@ -98,13 +106,7 @@ std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
       return false;
     }
     const Bounds around = object.bounds.grown(2 * margin);
-    for (const BoundingProxy& other : unbounded.list) {
-      const bool passes = other.kind == BoundingProxy::Kind::plane
-                              ? passes_by(other, unbounded.axes[other.detail], around)
-                              : !scene.objects[other.object].bounds.touches(around);
-      if (!passes) return false;
-    }
-    return !boxes.touches_other(around, index);
+    return all_pass_by(scene, unbounded, around) && !boxes.touches_other(around, index);
   };
   for_ranges(bounded.size(), items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t place = begin; place < end; ++place) {

@@ -11,6 +11,10 @@
 
 namespace crt::core {
 
+/// Returns whether the surfaces of all these objects surely pass by a box. The box may be in a
+/// half-space.
+bool all_pass_by(const CompiledScene& scene, const BoundingProxies& proxies, const Bounds& box);
+
 /// Returns by object its place in `bounded` if it is isolated, else `nothing`; empty if there is
 /// none. Light enters such an object, and its box, grown by `margin`, touches no other object's,
 /// grown likewise. `bounded` must be in an order in which neighbours are near each other;

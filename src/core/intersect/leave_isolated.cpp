@@ -9,43 +9,31 @@
 
 namespace crt::core {
 
-bool Accelerator::leave_isolated(const BoundingProxy& solid, const WorldRay& ray, RayHit& hit,
-                                 RayWorkspace& work) const {
-  work.csg.steps.begin_ray();
-  Nearest query(*this, ray, work, hit);
-  query.test(solid.object);
-  const Bounds margin = box_around(solid.object);
-  const PlainRay<double> line = plain_ray(ray);
-  if (hit.found() && is_within(margin, line, ray.t_min) && is_within(margin, line, query.limit()))
-    return true;
-  hit = {};
-  return false;
-}
-
-template <class SomeRays>
-RayMask Accelerator::leave_isolated(const BoundingProxy& solid, const SomeRays& rays,
+template <class Real>
+RayMask Accelerator::leave_isolated(const BoundingProxy& solid, const Rays<Real>& rays,
                                     std::size_t group, RayMask lanes, std::span<RayHit> hits,
                                     RayWorkspace& work) const {
+  const std::size_t first = group * lanes_in<Real>;
   RayMask done = 0;
   if (resolves_exit(solid)) {
     const auto exit = isolated_exit(solid, box_around(solid.object), rays.line(group),
                                     rays.begin(group), rays.end(group));
     done = lanes & mask_of(exit.found);
     for_each_ray(done, [&](std::size_t lane) {
-      write_first(solid, bounded_, lane_of(exit, lane), hits[lane]);
+      write_first(solid, bounded_, lane_of(exit, lane), hits[first + lane]);
     });
     work.intersection_tests += static_cast<unsigned>(std::popcount(done));
   }
-  for_each_ray(lanes & ~done, [&](std::size_t lane) {
-    const WorldRay& ray = rays.ray(group * lane_count + lane);
-    done |= mask_of(leave_isolated(solid, ray, hits[lane], work)) << lane;
-  });
-  return done;
+  const RayMask open = lanes & ~done;
+  return open == 0 ? done
+                   : done | leave_by_tests<Real>(solid, rays, open << first, hits, work) >> first;
 }
 
 RayMask Accelerator::leave_isolated(const WorldRay& ray, RayHit& hit, RayWorkspace& work) const {
   const std::uint32_t place = entered_isolated(ray.start);
-  return place == nothing ? 0 : leave_isolated(bounded_.list[place], ray, 0, 1, {&hit, 1}, work);
+  return place == nothing
+             ? 0
+             : leave_isolated<double>(bounded_.list[place], ray, 0, 1, {&hit, 1}, work);
 }
 
 RayMask Accelerator::leave_isolated(const RayBatch& rays, RayMask some,
@@ -69,8 +57,7 @@ RayMask Accelerator::leave_isolated(const RayBatch& rays, RayMask some,
       RayMask alike = 0;
       for_each_ray(to_come, [&](std::size_t i) { alike |= mask_of(places[i] == place) << i; });
       to_come &= ~alike;
-      done |= leave_isolated(bounded_.list[place], rays, group, alike, hits.subspan(first), work)
-              << first;
+      done |= leave_isolated<Lanes>(bounded_.list[place], rays, group, alike, hits, work) << first;
     }
   });
   return done;

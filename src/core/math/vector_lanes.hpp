@@ -84,7 +84,7 @@ inline VectorLanes cross(const VectorLanes& a, const VectorLanes& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-inline Lanes largest_component(const VectorLanes& v) {
+[[gnu::always_inline]] inline Lanes largest_component(const VectorLanes& v) {
   return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 

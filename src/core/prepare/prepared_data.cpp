@@ -243,6 +243,10 @@ RayHit PreparedData::first_listed(const WorldRay& ray, const RayHit& nearest,
   return work.listed.empty() ? nearest : work.listed.front();
 }
 
+bool PreparedData::all_pass_by(const Bounds& box) const {
+  return accelerator_->all_pass_by(box);
+}
+
 bool PreparedData::is_on_surface(const Vec3& point, RayWorkspace& work) const {
   constexpr double relative_width = 0x1p-26;
   const double width = relative_width * largest_component(point);

@@ -129,6 +129,9 @@ class PreparedData {
   /// along three axes across each other, as a line along a surface does not meet it.
   bool is_on_surface(const Vec3& point, RayWorkspace& work) const;
 
+  /// Returns whether all surfaces surely pass by a box.
+  bool all_pass_by(const Bounds& box) const;
+
   /// Returns whether the ray starts inside a solid object (just after its start, as above), and
   /// where it leaves it.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/shading/pixel_range.hpp"
+
 namespace crt::core {
 
 namespace {
@@ -27,8 +29,8 @@ struct Brightness {
     return std::max(of(background.horizon), of(background.sky));
   }
   double operator()(const PanoramaBackground& background) const {
-    const std::span<const float> values = background.image->pixels();
-    return std::max(white, double{*std::max_element(values.begin(), values.end())});
+    const FloatLanes most = pixel_range(background.image->pixels()).most;
+    return of({most[0], most[1], most[2]});
   }
 };
 

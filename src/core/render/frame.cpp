@@ -67,7 +67,7 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
       gains_behind_[i - 1] = std::min(features().gain * gains_behind_[i], largest_share);
     }
   }
-  if (!features().transparency || features().lens) return;
+  if (!features().transparency) return;
   if (data.scene().camera.projection == Projection::orthographic) return;
   const PicturePlaceLanes in_middle = {lanes_of(0.5 * settings.width),
                                        lanes_of(0.5 * settings.height)};
@@ -76,8 +76,14 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   RayBatch eye;
   set_camera_rays({&line, 1}, eye);
   const WorldRay middle = eye.ray(0);
-  one_viewpoint_ = !data.is_on_surface(middle.origin, work.rays);
+  one_viewpoint_ = features().lens ? data.all_pass_by(camera_.lens_bounds())
+                                   : !data.is_on_surface(middle.origin, work.rays);
   if (one_viewpoint_) find_surrounding_media(data, middle, camera_media_, work);
+  // In which order several solids hold a point of the lens depends on the ray.
+  if (features().lens && camera_media_.size() > 1) {
+    one_viewpoint_ = false;
+    camera_media_.clear();
+  }
 }
 
 void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::vector<Medium>& out,

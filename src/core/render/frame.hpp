@@ -46,8 +46,9 @@ class Frame {
   /// still pass after so many bounces.
   double gain_behind(int bounces) const { return gains_behind_[static_cast<std::size_t>(bounces)]; }
 
-  /// Returns whether all camera rays start at one point off all surfaces, so that the same solids
-  /// surround them all. Those are then camera_media(), the outermost first.
+  /// Returns whether all camera rays start at one point off all surfaces, or on a lens that all
+  /// surfaces pass by, so that the same solids surround them all. Those are then camera_media(),
+  /// the outermost first.
   bool one_viewpoint() const { return one_viewpoint_; }
   const std::vector<Medium>& camera_media() const { return camera_media_; }
 

@@ -75,54 +75,73 @@ bool is_worth_it(TraceContext& context, const PathState& before, const Rgb& weig
   return false;
 }
 
-/// Puts the rays that some of a group of surfaces send on onto their samples' stacks, that which
-/// goes through a surface last. Returns which samples got any.
+/// Takes a ray into the next round. If its sample has followed as many as it may, it and all that
+/// wait are dropped.
+[[gnu::always_inline]] inline void take(RenderStats& stats, const PathRay& ray, SampleWork& work,
+                                        Sample& sample, PathRays& next) {
+  if (work.rays == most_rays_per_sample) {
+    ++stats.samples_over_ray_bound;
+    for (const PathRay& waiting : work.pending.all()) {
+      sample.dropped += largest_component(waiting.weight);
+    }
+    sample.dropped += largest_component(ray.weight);
+    work.pending.clear();
+    return;
+  }
+  ++(ray.path.kind == RayKind::refraction ? stats.refraction_rays : stats.reflection_rays);
+  next.add(ray, work, sample);
+  work.media.release(ray.path.media_mark);
+}
+
+/// Sends rays of some of a group of surfaces on. A sample's ray through the surface, or else its
+/// mirrored one, is taken into the next round. If there are both, the latter waits on the sample's
+/// stack. Returns which samples got any.
 RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hits,
-                const Surfaces& surfaces, std::size_t group, RayMask some) {
+                const Surfaces& surfaces, std::size_t group, RayMask some, PathRays& next) {
   const Split parts = split(context, rays, hits, surfaces, group, some);
+  RenderStats& stats = context.work.stats;
   RayMask sent = 0;
   for_each_ray(some, [&](std::size_t lane) {
     const std::size_t ray = group * lane_count + lane;
     const SurfaceLane from = surfaces.of(ray);
     const PathState& state = rays.states[ray];
     SampleWork& work = *rays.works[ray];
-    const auto send = [&](const Branch& branch, RayKind kind, MediaLists::List media,
-                          std::uint32_t media_mark) {
-      if ((branch.rays >> lane & 1u) == 0) return;
-      const Rgb weight = branch.weights.lane(lane);
-      if (!is_worth_it(context, state, weight, *rays.samples[ray])) return;
-      const bool goes_through = kind == RayKind::refraction;
-      PathRay& next = work.pending.push();  // Filled in place, which is faster than a copy.
-      next.origin = from.position();
-      next.direction = branch.directions.lane(lane);
-      next.start = goes_through ? from.start_behind() : from.start();
-      next.weight = weight;
-      next.path = {kind, state.bounces + 1, from.path_length(), media, media_mark};
-      sent |= RayMask{1} << lane;
-      context.work.stats.media_changes += goes_through && context.data.is_solid(hits.hits[ray]);
+    Sample& sample = *rays.samples[ray];
+    const auto is_followed = [&](const Branch& branch) {
+      return (branch.rays >> lane & 1u) != 0 &&
+             is_worth_it(context, state, branch.weights.lane(lane), sample);
     };
-    send(parts.mirrored, RayKind::reflection, state.media, state.media_mark);
-    send(parts.refracted, RayKind::refraction, parts.media_behind[lane], work.media.mark());
+    // It is filled in place, which is faster than a copy.
+    const auto describe = [&](PathRay& ray_on, const Branch& branch, const StartPoint& start,
+                              const PathState& path) {
+      ray_on.origin = from.position();
+      ray_on.direction = branch.directions.lane(lane);
+      ray_on.start = start;
+      ray_on.weight = branch.weights.lane(lane);
+      ray_on.path = path;
+    };
+    const auto describe_mirrored = [&](PathRay& ray_on) {
+      describe(ray_on, parts.mirrored, from.start(),
+               {RayKind::reflection, state.bounces + 1, from.path_length(), state.media,
+                state.media_mark});
+    };
+    const bool is_mirrored = is_followed(parts.mirrored);
+    const bool goes_through = is_followed(parts.refracted);
+    if (!is_mirrored && !goes_through) return;
+    sent |= RayMask{1} << lane;
+    PathRay last;
+    if (goes_through) {
+      if (is_mirrored) describe_mirrored(work.pending.push());
+      describe(last, parts.refracted, from.start_behind(),
+               {RayKind::refraction, state.bounces + 1, from.path_length(),
+                parts.media_behind[lane], work.media.mark()});
+      stats.media_changes += context.data.is_solid(hits.hits[ray]);
+    } else {
+      describe_mirrored(last);
+    }
+    take(stats, last, work, sample, next);
   });
   return sent;
-}
-
-/// Takes the last ray from a sample's stack, if there is one, into the next round.
-void pop(RenderStats& stats, SampleWork& work, Sample& sample, PathRays& next) {
-  PathStack& stack = work.pending;
-  if (stack.empty()) return;
-  if (work.rays == most_rays_per_sample) {
-    ++stats.samples_over_ray_bound;
-    for (const PathRay& dropped : stack.all()) sample.dropped += largest_component(dropped.weight);
-    stack.clear();
-    return;
-  }
-  const PathRay& last = stack.top();
-  const bool is_refracted = last.path.kind == RayKind::refraction;
-  ++(is_refracted ? stats.refraction_rays : stats.reflection_rays);
-  next.add(last, work, sample);
-  work.media.release(last.path.media_mark);
-  stack.pop();
 }
 
 }  // namespace
@@ -135,13 +154,15 @@ void next_rays(TraceContext& context, const PathRays& rays, const PathHits& hits
   if (!features.reflection && !features.transparency) return;
   for (std::size_t group = 0; group * lane_count < rays.count; ++group) {
     const RayMask some = RayPacket::lanes(surfaces.rays, group) & surfaces.groups[group].sending_on;
-    const RayMask sent = some == 0 ? 0 : send_on(context, rays, hits, surfaces, group, some);
-    const auto pop_of = [&](std::size_t lane) {
+    const RayMask sent = some == 0 ? 0 : send_on(context, rays, hits, surfaces, group, some, next);
+    for_each_ray(RayPacket::lanes(rays.all(), group) & ~sent, [&](std::size_t lane) {
       const std::size_t ray = group * lane_count + lane;
-      pop(context.work.stats, *rays.works[ray], *rays.samples[ray], next);
-    };
-    for_each_ray(sent, pop_of);
-    for_each_ray(RayPacket::lanes(rays.all(), group) & ~sent, pop_of);
+      PathStack& waiting = rays.works[ray]->pending;
+      if (waiting.empty()) return;
+      const PathRay last = waiting.top();
+      waiting.pop();
+      take(context.work.stats, last, *rays.works[ray], *rays.samples[ray], next);
+    });
   }
 }
 

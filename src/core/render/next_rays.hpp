@@ -5,9 +5,9 @@
 
 namespace crt::core {
 
-/// Fills `next` with one ray for each sample that has one left. Surfaces put mirrored and refracted
-/// rays onto the samples' stacks, unless these are too deep or of too little weight. Then each
-/// sample takes the last ray from its stack.
+/// Fills `next` with one ray for each sample that has one left. That is the last of the mirrored
+/// and refracted rays that surfaces send on, unless these are too deep or of too little weight.
+/// Others wait on the samples' stacks until no ray is sent on.
 void next_rays(TraceContext& context, const PathRays& rays, const PathHits& hits,
                const Surfaces& surfaces, PathRays& next);
 

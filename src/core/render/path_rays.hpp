@@ -40,7 +40,7 @@ struct PathRays {
   bool are_from_camera() const { return states[0].kind == RayKind::camera; }
 
   /// Adds the ray that a sample follows next.
-  void add(const PathRay& ray, SampleWork& work, Sample& sample) {
+  [[gnu::always_inline]] void add(const PathRay& ray, SampleWork& work, Sample& sample) {
     batch.set(count, ray.origin, ray.direction, ray.start);
     weights[count / lane_count].set(count % lane_count, ray.weight);
     states[count] = ray.path;

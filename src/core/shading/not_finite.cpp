@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/shading/pixel_range.hpp"
+
 namespace crt::core {
 
 namespace {
@@ -17,6 +19,7 @@ NotFiniteValues find_not_finite(const Image& image) {
   constexpr std::size_t channels = 4;
   const std::span<const float> values = image.pixels();
   NotFiniteValues found;
+  if (values.empty() || pixel_range(values).is_finite) return found;
   for (std::size_t first = 0; first < values.size(); first += channels) {
     const std::span<const float> pixel = values.subspan(first, channels);
     if (std::none_of(pixel.begin(), pixel.end(), is_not_finite)) continue;

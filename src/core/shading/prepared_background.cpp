@@ -1,10 +1,8 @@
 #include "core/shading/prepared_background.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <crt/elementary.hpp>
 #include <numbers>
 
+#include "core/math/quick_angle.hpp"
 #include "crt/settings.hpp"
 
 namespace crt::core {
@@ -27,45 +25,41 @@ PreparedBackground::PreparedBackground(const Background& background, TexturePool
 }
 
 Color PreparedBackground::color(const Vec3& direction) const {
-  if (const auto* solid = std::get_if<SolidBackground>(&background_)) return solid->color;
-  if (const auto* gradient = std::get_if<GradientBackground>(&background_)) {
-    return mix(gradient->horizon, gradient->sky, std::min(1.0, std::abs(direction.y)));
-  }
-  return panorama(std::get<PanoramaBackground>(background_), direction);
+  return colors(lanes_of(direction), 1).lane(0);
 }
 
 ColorLanes PreparedBackground::colors(const VectorLanes& directions, std::uint32_t lanes) const {
   if (const auto* solid = std::get_if<SolidBackground>(&background_)) return lanes_of(solid->color);
-  ColorLanes colors;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    if ((lanes >> lane & 1u) != 0) colors.set(lane, color(directions.lane(lane)));
+  if (const auto* gradient = std::get_if<GradientBackground>(&background_)) {
+    return mix(lanes_of(gradient->horizon), lanes_of(gradient->sky),
+               min(lanes_of(1), abs(directions.y)));
   }
-  return colors;
+  return panorama(std::get<PanoramaBackground>(background_), directions, lanes);
 }
 
-Color PreparedBackground::panorama(const PanoramaBackground& panorama,
-                                   const Vec3& direction) const {
+ColorLanes PreparedBackground::panorama(const PanoramaBackground& panorama,
+                                        const VectorLanes& directions, std::uint32_t lanes) const {
   const double width = texture_->width();
   const double height = texture_->height();
-  const double across = elementary::atan2(direction.x, direction.z) + panorama.angle;
-  const double level = elementary::hypot(direction.x, direction.z);
-  const double x = (0.5 + across / full_turn) * width;
+  const Lanes across = quick_atan2(directions.x, directions.z) + panorama.angle;
+  const Lanes x = (0.5 + across * (1 / full_turn)) * width;
+  const Lanes level = sqrt(directions.x * directions.x + directions.z * directions.z);
 
-  double y = 0.5 * height;
+  Lanes y = lanes_of(0.5 * height);
   switch (panorama.projection) {
     case PanoramaProjection::spherical:
-      y -= elementary::atan2(direction.y, level) / std::numbers::pi * height;
+      y -= quick_atan2(directions.y, level) * (height / std::numbers::pi);
       break;
     case PanoramaProjection::cylindrical:
       // The cylinder has radius 1, so that a texel is as high as it is wide.
-      y -= direction.y / level * width / full_turn;
+      y -= directions.y / level * (width / full_turn);
       break;
     case PanoramaProjection::equal_area:
       // By Archimedes, as much of the sphere lies between two heights as of the cylinder around it.
-      y -= 0.5 * direction.y * height;
+      y -= 0.5 * directions.y * height;
       break;
   }
-  return texture_->bilinear(x, y, TextureWrap::repeat, TextureWrap::clamp);
+  return texture_->bilinear(x, y, TextureWrap::repeat, TextureWrap::clamp, lanes);
 }
 
 }  // namespace crt::core

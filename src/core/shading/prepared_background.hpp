@@ -21,12 +21,12 @@ class PreparedBackground {
 
   /// Returns the colour in a direction (unit length), not premultiplied.
   Color color(const Vec3& direction) const;
-  /// Returns the colours that color() gives, to the last bit, in the lanes that have their bit in
-  /// `lanes`.
+  /// Returns the colours in directions, in the lanes that have their bit in `lanes`.
   ColorLanes colors(const VectorLanes& directions, std::uint32_t lanes) const;
 
  private:
-  Color panorama(const PanoramaBackground& panorama, const Vec3& direction) const;
+  ColorLanes panorama(const PanoramaBackground& panorama, const VectorLanes& directions,
+                      std::uint32_t lanes) const;
 
   Background background_;
   std::shared_ptr<const Texture> texture_;

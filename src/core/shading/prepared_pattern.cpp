@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "core/math/direction_and_length.hpp"
+#include "core/math/plane_point.hpp"
 #include "core/shading/image_mapping.hpp"
 #include "core/shading/noise.hpp"
 #include "core/shading/rgb.hpp"
@@ -107,13 +108,18 @@ Color color_between(const std::vector<ColorStop>& stops, double share) {
              (share - before.position) / (after->position - before.position));
 }
 
-Color color_of(const ImageMap& map, const Texture& texture, const SurfacePoint& point) {
+/// Returns the place in a map's picture, in texels.
+PlanePoint place_in(const ImageMap& map, const Texture& texture, const SurfacePoint& point) {
   const PictureCoordinates at =
       map.mapping == ImageMapping::uv ? PictureCoordinates{point.u, point.v} : mapped(map, point);
   // v runs up the surface, rows run down the picture.
-  const double x = period_share(at.u * map.repeat_u) * texture.width();
-  const double y = (1 - period_share(at.v * map.repeat_v)) * texture.height();
-  return texture.bilinear(x, y, TextureWrap::repeat, TextureWrap::repeat);
+  return {period_share(at.u * map.repeat_u) * texture.width(),
+          (1 - period_share(at.v * map.repeat_v)) * texture.height()};
+}
+
+Color color_of(const ImageMap& map, const Texture& texture, const SurfacePoint& point) {
+  const PlanePoint place = place_in(map, texture, point);
+  return texture.bilinear(place.x, place.y, TextureWrap::repeat, TextureWrap::repeat);
 }
 
 /// Returns the colour of any pattern. Only an image map has a texture.
@@ -133,6 +139,13 @@ ColorLanes colors_at(const Kind& kind, const Texture* texture, const SurfacePoin
                      std::uint32_t lanes) {
   if constexpr (has_edges<Kind>) {
     return select(is_second(kind, points), lanes_of(kind.color_b), lanes_of(kind.color_a));
+  } else if constexpr (std::is_same_v<Kind, ImageMap>) {
+    PlanePointLanes places;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if ((lanes >> lane & 1u) == 0) continue;
+      set_lane(places, lane, place_in(kind, *texture, lane_of(points, lane)));
+    }
+    return texture->bilinear(places.x, places.y, TextureWrap::repeat, TextureWrap::repeat, lanes);
   } else {
     ColorLanes result;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {

@@ -61,10 +61,18 @@ struct ColorLanes {
     color.set(lane, rgb(one));
     alpha[lane] = one.a;
   }
+  Color lane(std::size_t index) const {
+    return {color.x[index], color.y[index], color.z[index], alpha[index]};
+  }
 };
 
 inline ColorLanes lanes_of(const Color& color) {
   return {lanes_of(rgb(color)), lanes_of(color.a)};
+}
+
+/// Interpolates from a (share 0) to b (share 1), in every channel and alpha.
+inline ColorLanes mix(const ColorLanes& a, const ColorLanes& b, const Lanes& share) {
+  return {a.color + share * (b.color - a.color), a.alpha + share * (b.alpha - a.alpha)};
 }
 
 inline ColorLanes select(const LaneMask& first, const ColorLanes& a, const ColorLanes& b) {

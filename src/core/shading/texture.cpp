@@ -1,11 +1,11 @@
 #include "core/shading/texture.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "core/math/power.hpp"
 #include "core/shading/not_finite.hpp"
-#include "core/shading/rgb.hpp"
+#include "core/shading/pixel_range.hpp"
 
 namespace crt::core {
 
@@ -29,73 +29,103 @@ std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma)
 }
 
 /// Neighbours are two neighbouring texels along one side of the picture, and the share of the
-/// second.
+/// second, for as many positions as there are lanes.
 struct Neighbours {
-  int first = 0;
-  int second = 0;
-  double share = 0;
+  IntLanes first;
+  IntLanes second;
+  Lanes share;
 };
 
-Neighbours neighbours(double position, int size, TextureWrap wrap) {
-  double from_center = position - 0.5;
-  if (wrap == TextureWrap::clamp) {
-    from_center = std::clamp(from_center, 0.0, size - 1.0);
+Neighbours neighbours(const Lanes& position, double size, TextureWrap wrap) {
+  const bool is_clamped = wrap == TextureWrap::clamp;
+  const Lanes last = lanes_of(size - 1);
+  Lanes from_center = position - 0.5;
+  if (is_clamped) {
+    from_center = min(max(Lanes{}, from_center), last);
   } else {
-    from_center = std::fmod(from_center, size);
-    if (from_center < 0) from_center += size;
-    if (!(from_center < size)) from_center = 0;  // a tiny negative number rounds up to the size
+    from_center = fma(-floor(from_center / size), lanes_of(size), from_center);
+    // A tiny negative number is rounded up to the size.
+    from_center = select(from_center >= 0.0 && from_center < size, from_center, Lanes{});
   }
-  Neighbours result;
-  result.first = static_cast<int>(from_center);
-  result.share = from_center - result.first;
-  const int next = result.first + 1;
-  result.second = next < size ? next : (wrap == TextureWrap::clamp ? size - 1 : 0);
-  return result;
+  const Lanes first = floor(from_center);
+  const Lanes second = select(first < last, Lanes(first + 1.0), is_clamped ? last : Lanes{});
+  return {stdx::static_simd_cast<IntLanes>(first), stdx::static_simd_cast<IntLanes>(second),
+          from_center - first};
 }
 
-Color straight(const Color& premultiplied) {
-  const double alpha = std::clamp(premultiplied.a, 0.0, 1.0);
-  if (alpha == 1) return {premultiplied.r, premultiplied.g, premultiplied.b, 1};
-  if (!(alpha > 0)) return {0, 0, 0, 0};
-  return {premultiplied.r / alpha, premultiplied.g / alpha, premultiplied.b / alpha, alpha};
+/// Interpolates from a (share 0) to b (share 1), in every channel.
+Lanes mix(const Lanes& a, const Lanes& b, double share) {
+  return a + share * (b - a);
+}
+
+/// Returns the straight colours of pixels.
+ColorLanes straight(const std::array<Lanes, lane_count>& pixels) {
+  const auto [red, green, blue, unclamped] = transposed(pixels);
+  const VectorLanes premultiplied = {red, green, blue};
+  const Lanes alpha = clamp(unclamped, Lanes{}, lanes_of(1));
+  if (all(alpha == 1.0)) return {premultiplied, alpha};
+  const LaneMask covers = alpha > 0.0;
+  const VectorLanes color = premultiplied / select(covers, alpha, lanes_of(1));
+  return {select(covers, color, VectorLanes{}), alpha};
+}
+
+/// Returns a bound on the straight colours of pixels.
+double brightest_of(std::span<const float> values) {
+  Lanes brightest{};
+  for (std::size_t pixel = 0; pixel < values.size(); pixel += lane_count) {
+    const double alpha = std::clamp(double{values[pixel + 3]}, 0.0, 1.0);
+    if (!(alpha > 0)) continue;
+    brightest = max(brightest, to_doubles(lanes_at<FloatLanes>(&values[pixel])) / alpha);
+  }
+  return std::max<double>({brightest[0], brightest[1], brightest[2]});
 }
 
 }  // namespace
 
 Texture::Texture(std::shared_ptr<const Image> image, double gamma)
     : image_(std::move(image)), not_finite_(image_->not_finite()) {
-  if (NotFiniteValues values = find_not_finite(*image_); values.pixels > 0) {
+  const auto take_own = [this](std::shared_ptr<const Image> own) {
+    image_ = std::move(own);
+    own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
+    return pixel_range(image_->pixels());
+  };
+  PixelRange range = pixel_range(image_->pixels());
+  if (!range.is_finite) {
     auto finite = std::make_shared<Image>(*image_);
-    replace_not_finite(*finite);
-    image_ = std::move(finite);
-    not_finite_ = std::move(values);
-    own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
+    not_finite_ = replace_not_finite(*finite);
+    range = take_own(std::move(finite));
   }
-  if (image_->display_encoded() && gamma != 1) {
-    image_ = to_linear_light(*image_, gamma);
-    own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
-  }
+  if (image_->display_encoded() && gamma != 1) range = take_own(to_linear_light(*image_, gamma));
+  opaque_ = range.least[3] >= 1;
   // Colours between texels are means of these, weighted by alpha, and no brighter.
-  Lanes brightest{};
-  const std::span<const float> values = image_->pixels();
-  for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
-    const double alpha = std::clamp(double{values[pixel + 3]}, 0.0, 1.0);
-    opaque_ = opaque_ && alpha == 1;
-    if (!(alpha > 0)) continue;
-    brightest =
-        max(brightest, lanes_of(values[pixel], values[pixel + 1], values[pixel + 2], 0) / alpha);
+  brightest_ = opaque_ ? std::max<float>({range.most[0], range.most[1], range.most[2]})
+                       : brightest_of(image_->pixels());
+}
+
+ColorLanes Texture::bilinear(const Lanes& x, const Lanes& y, TextureWrap wrap_x, TextureWrap wrap_y,
+                             std::uint32_t lanes) const {
+  const Neighbours columns = neighbours(x, width(), wrap_x);
+  const Neighbours rows = neighbours(y, height(), wrap_y);
+  const float* const values = image_->pixels().data();
+  const auto row_size = static_cast<std::size_t>(width());
+  std::array<Lanes, lane_count> pixels{};
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    if ((lanes >> lane & 1u) == 0) continue;
+    const auto left = static_cast<std::size_t>(columns.first[lane]);
+    const auto right = static_cast<std::size_t>(columns.second[lane]);
+    const auto mean_of_row = [&](std::int32_t row) {
+      const float* const first = values + lane_count * row_size * static_cast<std::size_t>(row);
+      return mix(to_doubles(lanes_at<FloatLanes>(first + lane_count * left)),
+                 to_doubles(lanes_at<FloatLanes>(first + lane_count * right)), columns.share[lane]);
+    };
+    pixels[lane] =
+        mix(mean_of_row(rows.first[lane]), mean_of_row(rows.second[lane]), rows.share[lane]);
   }
-  brightest_ = std::max<double>({brightest[0], brightest[1], brightest[2]});
+  return straight(pixels);
 }
 
 Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const {
-  const Neighbours column = neighbours(x, width(), wrap_x);
-  const Neighbours row = neighbours(y, height(), wrap_y);
-  const Color upper =
-      mix(image_->at(column.first, row.first), image_->at(column.second, row.first), column.share);
-  const Color lower = mix(image_->at(column.first, row.second),
-                          image_->at(column.second, row.second), column.share);
-  return straight(mix(upper, lower, row.share));
+  return bilinear(lanes_of(x), lanes_of(y), wrap_x, wrap_y, 1).lane(0);
 }
 
 std::uint64_t TexturePool::bytes() const {

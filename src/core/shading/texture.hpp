@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/shading/rgb.hpp"
 #include "crt/image.hpp"
 
 namespace crt::core {
@@ -42,6 +43,9 @@ class Texture {
   /// finite position is valid. The colour is straight (not premultiplied), and black where nothing
   /// covers.
   Color bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const;
+  /// Does so to the same bits in the lanes that have their bit in `lanes`.
+  ColorLanes bilinear(const Lanes& x, const Lanes& y, TextureWrap wrap_x, TextureWrap wrap_y,
+                      std::uint32_t lanes) const;
 
  private:
   std::shared_ptr<const Image> image_;

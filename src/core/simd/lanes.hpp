@@ -16,7 +16,7 @@
 #include <experimental/simd>
 #include <type_traits>
 
-#ifdef __FMA__
+#ifdef __AVX__
 #include <immintrin.h>
 #endif
 
@@ -51,6 +51,11 @@ template <class Number, class Abi>
 [[gnu::always_inline]] inline std::uint32_t mask_of(const stdx::simd_mask<Number, Abi>& mask) {
   return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
+#if defined(__AVX__) && !defined(__AVX512F__)
+[[gnu::always_inline]] inline std::uint32_t mask_of(const LaneMask& mask) {
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
+}
+#endif
 
 inline std::uint32_t mask_of(bool mask) {
   return mask ? 1 : 0;
@@ -58,7 +63,7 @@ inline std::uint32_t mask_of(bool mask) {
 
 /// Returns the mask with those bits. Bits above the number of lanes do not count.
 template <class Mask>
-Mask mask_with(std::uint32_t bits) {
+[[gnu::always_inline]] inline Mask mask_with(std::uint32_t bits) {
   return Mask::__from_bitset(bits);
 }
 [[gnu::always_inline]] inline LaneMask lanes_with(std::uint32_t bits) {
@@ -165,7 +170,8 @@ inline Lanes to_doubles(const FloatLanes& a) {
 }
 
 /// Returns as bits which of eight numbers in a row are equal to `one`.
-inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t one) {
+[[gnu::always_inline]] inline std::uint32_t which_of_eight(const std::uint32_t* numbers,
+                                                           std::uint32_t one) {
   return mask_of(lanes_at<BitOctet>(numbers) == one);
 }
 
@@ -235,13 +241,24 @@ using std::max;
 using std::min;
 
 // If one of two doubles is NaN, max() returns the first, as std::max() does, and min() the second.
-// If one of two floats is NaN, both return the first.
+// If one of two floats is NaN, both return the first. Where a minimum and a maximum of the same
+// numbers are asked for, GCC would have one comparison and two selections instead of two
+// instructions.
+#ifdef __AVX__
+[[gnu::always_inline]] inline Lanes min(const Lanes& a, const Lanes& b) {
+  return std::bit_cast<Lanes>(_mm256_min_pd(std::bit_cast<__m256d>(a), std::bit_cast<__m256d>(b)));
+}
+[[gnu::always_inline]] inline Lanes max(const Lanes& a, const Lanes& b) {
+  return std::bit_cast<Lanes>(_mm256_max_pd(std::bit_cast<__m256d>(b), std::bit_cast<__m256d>(a)));
+}
+#else
 [[gnu::always_inline]] inline Lanes min(const Lanes& a, const Lanes& b) {
   return select(a < b, a, b);
 }
 [[gnu::always_inline]] inline Lanes max(const Lanes& a, const Lanes& b) {
   return select(a < b, b, a);
 }
+#endif
 [[gnu::always_inline]] inline FloatLanes min(const FloatLanes& a, const FloatLanes& b) {
   return select(b < a, b, a);
 }

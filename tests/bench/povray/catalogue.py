@@ -6,7 +6,7 @@ import numpy as np
 
 from .model import (
     Alternating, Box, Camera, Checker, Cone, Cylinder, Difference, HeightField, Lenses, Material,
-    Mesh, Plane, PointLight, Scene, Sphere, Spheres, Torus, Union,
+    Mesh, Panorama, Plane, PointLight, Scene, Sphere, Spheres, Torus, Union,
 )
 from .stream import Stream
 
@@ -15,6 +15,7 @@ FLOOR = Material(color=(0.5, 0.6, 0.5))
 TILES = Material(color=Checker((0.8, 0.8, 0.7), (0.2, 0.25, 0.3), 1, (0.013, 0.3, 0.017)))
 WOOD = Material(color=(0.7, 0.45, 0.25))
 HOLE = Material(color=(0.3, 0.5, 0.7))
+CRYSTAL = Material(color=(0.95, 0.95, 0.95), diffuse=0, transparency=1, refractive_index=1.5)
 STUDIO = Camera(position=(3, 6, -11), pointing=(0, 0, 0))
 FRONT = Camera(position=(1, 2, -11), pointing=(0, 0, 0))
 
@@ -116,12 +117,11 @@ def tori(count: int) -> Scene:
 
 def glass() -> Scene:
     """Has no ambient light: in POV-Ray glass has no share of it, in CRT it has."""
-    crystal = Material(color=(0.95, 0.95, 0.95), diffuse=0, transparency=1, refractive_index=1.5)
     stream = Stream(13)
     balls = tuple(
         Sphere(
             (2.2 * (i % 4) - 3.3, 0.8 * (i // 4), 2.2 * (i // 4) - 2), stream.between(0.7, 1),
-            crystal,
+            CRYSTAL,
         )
         for i in range(12))
     return Scene("12 glass spheres over tiles, 10 bounces", balls + (Plane(-1.5, TILES),),
@@ -233,6 +233,76 @@ def height_field(side: int) -> Scene:
     return Scene(f"a height field of {side} x {side}", (field, Plane(-4, FLOOR)), STUDIO)
 
 
+def sky(rows: int) -> Panorama:
+    """Makes a sky that is brighter towards the horizon, with soft clouds, over dark ground."""
+    columns = 2 * rows
+    height = np.cos(np.pi * (np.arange(rows) + 0.5) / rows)[:, None, None]
+    turn = (2 * np.pi * (np.arange(columns) + 0.5) / columns)[None, :, None]
+    clouds = 0.5 + 0.25 * (np.sin(3 * turn + 5 * height) + np.sin(7 * turn - 11 * height))
+    above = (np.array([0.25, 0.45, 0.85]) + 0.4 * np.exp(-4 * np.abs(height)) +
+             0.25 * clouds * np.abs(height))
+    below = np.array([0.22, 0.18, 0.12]) + 0.06 * np.sin(9 * turn) * (1 - np.abs(height))
+    blend = 1 / (1 + np.exp(-40 * height))
+    return Panorama(np.round(255 * np.clip(below + blend * (above - below), 0, 1)))
+
+
+WATER = Material(color=(0.95, 0.97, 0.99), diffuse=0, transparency=1, refractive_index=1.33)
+
+
+def lens_scene() -> Scene:
+    """Looks through a lens of glass at nine balls, some of them mirrors, out of focus before and
+    behind."""
+    chrome = Material(color=(0.6, 0.6, 0.6), diffuse=0.2, reflectivity=0.8)
+    stream = Stream(19)
+    balls = tuple(
+        Sphere((2.4 * (i % 3) - 2.4, 2 * (i // 3) - 2, stream.between(0, 6)),
+               stream.between(0.6, 0.9), chrome if i % 2 == 0 else SHINY)
+        for i in range(9))
+    lens = Lenses(np.array([(0.3, 0.2, -5)]), 3, 2.6, CRYSTAL)
+    camera = Camera(
+        position=(0.4, 0.5, -11), pointing=(0, 0, 0), aperture=0.15, focal_distance=12
+    )
+    return Scene("9 balls behind a lens under a panorama, depth of field, 50 samples a pixel",
+                 (lens, *balls), camera, background=sky(512), ambient=0, depth=6, lens_samples=50,
+                 noisy=True)
+
+
+def drops() -> Scene:
+    """Makes drops of water, which are balls that the ground cuts."""
+    stream = Stream(23)
+    balls = tuple(
+        Difference(
+            Sphere((stream.between(-6, 6), stream.between(-1.05, -0.95), stream.between(-6, 6)),
+                   stream.between(0.12, 0.3), WATER),
+            (Box((-9, -3, -9), (9, -1, 9), WATER),))
+        for _ in range(300))
+    camera = Camera(
+        position=(0, 2.5, -9), pointing=(0, -1, -1), aperture=0.08, focal_distance=8.7
+    )
+    return Scene("300 drops on a plane, depth of field, 2 x 2 rays of 32 samples a pixel",
+                 (*balls, Plane(-1.01, TILES)), camera, ambient=0, depth=5, grid=2,
+                 lens_samples=32, noisy=True)
+
+
+def mirror_cabinet() -> Scene:
+    """Makes a room of mirrors around a box with round holes and a lens of glass."""
+    walls = Material(color=(0.5, 0.5, 0.5), diffuse=0.3, reflectivity=0.7)
+    room = (
+        Box((-6, -4, -6), (6, -3, 6), Material(color=TILES.color, diffuse=0.9, reflectivity=0.1)),
+        Box((-6, 3, -6), (6, 4, 6), FLOOR), Box((-6, -3, -6), (-5, 3, 6), walls),
+        Box((5, -3, -6), (6, 3, 6), walls), Box((-5, -3, 5), (5, 3, 6), walls),
+        Box((-5, -3, -6), (5, 3, -5), walls),
+    )
+    cut = Difference(Box((-3.5, -3, 0.5), (-1.1, -0.6, 2.9), WOOD), (
+        Sphere((-2.3, -1.8, 0.5), 0.9, HOLE), Sphere((-1.1, -0.6, 2.9), 1.1, HOLE),
+        Cylinder((-2.9, -4, 2.3), (-2.9, 0, 2.3), 0.4, HOLE)))
+    lens = Lenses(np.array([(1.4, -0.8, 0.5)]), 2, 1.6, CRYSTAL)
+    camera = Camera(position=(3.2, 1.3, -4.4), pointing=(-0.6, -1, 1), fov=60)
+    lights = (PointLight((-3, 2.5, -3), (0.6, 0.6, 0.6)), PointLight((3, 2.6, 2), (0.4, 0.4, 0.4)))
+    return Scene("a room of mirrors with a cut box and a lens, 4 x 4 rays a pixel",
+                 (*room, cut, lens), camera, lights, ambient=0, depth=10, grid=4)
+
+
 def powers(first: int, last: int) -> list[tuple[int, str]]:
     return [(10**k, f"1e{k}") for k in range(first, last + 1)]
 
@@ -250,6 +320,9 @@ SCENES = {
     "glass": glass,
     "depth-of-field": depth_of_field,
     "antialiased": antialiased,
+    "lens-scene": lens_scene,
+    "drops-300": drops,
+    "mirror-cabinet": mirror_cabinet,
     "nested-50": lambda: nested(50),
     "nested-500": lambda: nested(500),
     **{f"tubes-{name}": (lambda n=n: tubes(n)) for n, name in powers(1, 3)},

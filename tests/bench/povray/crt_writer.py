@@ -9,7 +9,7 @@ import numpy as np
 from . import data_files
 from .model import (
     Alternating, Box, Checker, Cone, Cylinder, Difference, HeightField, Lenses, Material, Mesh,
-    Plane, Scene, Sphere, Spheres, Torus, Union,
+    Panorama, Plane, Scene, Sphere, Spheres, Torus, Union,
 )
 
 
@@ -74,12 +74,22 @@ class Writer:
     aperture -> {number(1000 * camera.aperture)} focaldistance -> {number(camera.focal_distance)}
     apertureshape -> "{camera.aperture_shape}"
   }}
-  background -> Background {{ color -> {color(scene.background)} }}
+  background -> {self.background()}
   lights -> [
     {lights}
   ]
 }}
 """
+
+    def background(self) -> str:
+        """Says what there is behind all things. A panorama's pixels are linear light, as 'gamma'
+        says."""
+        background = self.scene.background
+        if not isinstance(background, Panorama):
+            return f"Background {{ color -> {color(background)} }}"
+        path = self.script.with_name(f"{self.script.stem}-around.ppm")
+        data_files.write_ppm(path, background)
+        return f'Background {{ image -> "{path.name}" }}'
 
     def name(self, stem: str) -> str:
         self.names += 1

@@ -4,7 +4,7 @@ import pathlib
 
 import numpy as np
 
-from .model import HeightField, Mesh
+from .model import HeightField, Mesh, Panorama
 
 
 def write_ply(path: pathlib.Path, mesh: Mesh) -> None:
@@ -24,3 +24,9 @@ def write_pgm(path: pathlib.Path, field: HeightField) -> None:
     rows, columns = field.heights.shape
     path.write_bytes(f"P5\n{columns} {rows}\n65535\n".encode()
                      + field.heights[::-1].astype(">u2").tobytes())
+
+
+def write_ppm(path: pathlib.Path, panorama: Panorama) -> None:
+    rows, columns, _ = panorama.pixels.shape
+    path.write_bytes(f"P6\n{columns} {rows}\n255\n".encode()
+                     + panorama.pixels.astype("u1").tobytes())

@@ -166,13 +166,22 @@ class PointLight:
     color: Vector = (1, 1, 1)
 
 
+@dataclass(frozen=True, eq=False)
+class Panorama:
+    """A Panorama is a picture all around, in 8 bits of linear light: rows of pixels of three
+    channels, from straight up to straight down. The middle column is towards z, and its right half
+    towards x."""
+
+    pixels: np.ndarray
+
+
 @dataclass(frozen=True)
 class Scene:
     about: str
     things: tuple
     camera: Camera
     lights: tuple = (PointLight((8, 12, -10)),)
-    background: Vector = (0.1, 0.15, 0.3)
+    background: Vector | Panorama = (0.1, 0.15, 0.3)
     ambient: float = 0.1  # of the first light
     depth: int = 3  # bounces
     grid: int = 1  # rays a pixel: grid * grid

@@ -7,7 +7,7 @@ from typing import TextIO
 from . import data_files
 from .model import (
     Alternating, Box, Checker, Cone, Cylinder, Difference, HeightField, Lenses, Material, Mesh,
-    Plane, Scene, Sphere, Spheres, Torus, Union,
+    Panorama, Plane, Scene, Sphere, Spheres, Torus, Union,
 )
 
 # The ratio of POV-Ray's `aperture` to the radius of its lens was found by the size of a spot out of
@@ -63,8 +63,19 @@ class Writer:
   adc_bailout 1 / 1024
 }}
 {self.camera()}
-background {{ rgb {vector(scene.background)} }}
+{self.background()}
 {lights}"""
+
+    def background(self) -> str:
+        """Says what there is behind all things. POV-Ray's panoramas begin at x and go on to z,
+        so their middle column is at -x and what is right of it towards -z."""
+        background = self.scene.background
+        if not isinstance(background, Panorama):
+            return f"background {{ rgb {vector(background)} }}"
+        path = self.script.with_name(f"{self.script.stem}-around.ppm")
+        data_files.write_ppm(path, background)
+        return (f'sky_sphere {{ pigment {{ image_map {{ ppm "{path.name}" gamma 1 map_type 1'
+                " interpolate 2 } scale <1, 1, -1> rotate y * 90 } }")
 
     def camera(self) -> str:
         scene, camera = self.scene, self.scene.camera

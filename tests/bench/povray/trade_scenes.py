@@ -1,7 +1,7 @@
 """Makes scenes for accuracy against time, by name. Each is hard for samplers for a reason of its
 own, or not hard at all."""
 
-from .catalogue import FLOOR, HOLE, SHINY, STUDIO, TILES, WOOD, mirror_room, spheres
+from .catalogue import CRYSTAL, FLOOR, HOLE, SHINY, STUDIO, TILES, WOOD, mirror_room, spheres
 from .model import (
     Box, Camera, Checker, Cone, Cylinder, Difference, Material, Plane, PointLight, Scene, Sphere,
     Torus,
@@ -25,7 +25,6 @@ def camera_of_pixels(name: str) -> Camera:
 
 
 FAR_LIGHT = (PointLight((400, 700, -900)),)
-CRYSTAL = Material(color=(0.95, 0.95, 0.95), diffuse=0, transparency=1, refractive_index=1.5)
 
 
 def cad() -> Scene:
