@@ -1,6 +1,7 @@
 // These tests write files, and check what is replaced and what stays as it is.
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <sys/wait.h>
@@ -230,6 +231,26 @@ TEST_CASE("a pipe whose reader goes away is an error, and no signal ends the pro
   }
   reader.join();
   CHECK(message.find("Broken pipe") != std::string::npos);
+}
+
+TEST_CASE("a file beyond what the process may write is an error that leaves nothing") {
+  CHECK(as_common_user([] {
+    // The folder is of this user, whoever that is.
+    const TemporaryDirectory own;
+    const fs::path file = own / "large";
+    rlimit limit{};
+    if (getrlimit(RLIMIT_FSIZE, &limit) != 0) return false;
+    limit.rlim_cur = 1000;
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return false;
+    bool is_error = false;
+    try {
+      write_file(file, std::string(5000, 'x'));
+    } catch (const Error& error) {
+      is_error = error.code() == ErrorCode::io;
+    }
+    write_file(own / "small", "x");
+    return is_error && std::distance(fs::directory_iterator(own.path()), {}) == 1;
+  }));
 }
 
 TEST_CASE("a device is written to and stays one") {
