@@ -50,7 +50,7 @@ ScriptOptions with_pixels(std::uint64_t most) {
 bool passes_limit(const std::string& statements, std::uint64_t most) {
   const Run run = run_statements(statements, with_pixels(most));
   if (!run.failed_with(ErrorCode::limit)) return false;
-  const std::string& message = run.errors()[0].message;
+  const std::string message = run.errors()[0].message;
   INFO(message);
   CHECK(message.find(std::to_string(most) + " pixels together") != std::string::npos);
   return true;
