@@ -1,4 +1,5 @@
 // A program may have GLM align its vectors, and uses the library as any other does.
+#define GLM_FORCE_INTRINSICS
 #define GLM_FORCE_DEFAULT_ALIGNED_GENTYPES
 #include <doctest/doctest.h>
 
@@ -9,7 +10,9 @@
 using namespace crt;
 
 TEST_CASE("a program with aligned vectors of GLM makes scenes and asks rays") {
+#ifdef __x86_64__  // where GLM knows how
   REQUIRE(sizeof(glm::dvec3) > 3 * sizeof(double));
+#endif
   const glm::dvec3 center(1, 2, 3);
   Scene scene;
   scene.entities.push_back(Sphere{.center = center, .radius = 1});
