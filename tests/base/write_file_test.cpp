@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "core/base/whole_file.hpp"
 #include "support/temporary_directory.hpp"
 
 using namespace crt;
@@ -251,6 +252,18 @@ TEST_CASE("a file beyond what the process may write is an error that leaves noth
     write_file(own / "small", "x");
     return is_error && std::distance(fs::directory_iterator(own.path()), {}) == 1;
   }));
+}
+
+TEST_CASE("a file that is longer than memory allows is refused before it is read") {
+  const TemporaryDirectory directory;
+  const fs::path file = directory / "sparse";
+  put(file, "start");
+  std::error_code failed;
+  constexpr std::uintmax_t terabyte = std::uintmax_t{1} << 40;
+  fs::resize_file(file, terabyte, failed);
+  if (failed) return;  // this file system has no such files
+  CHECK_THROWS_AS(core::read_whole_file(file, 2 * terabyte), Error);
+  CHECK(core::read_file_start(file, 5).size() == 5);
 }
 
 TEST_CASE("a device is written to and stays one") {

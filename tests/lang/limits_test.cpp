@@ -37,8 +37,8 @@ bool ends_in_limit(const std::string& text, const ScriptOptions& options,
 /// Runs a function on a thread with a stack of a given size.
 template <class Function>
 void on_small_stack(std::size_t bytes, Function function) {
-#ifdef __SANITIZE_THREAD__
-  bytes *= 8;  // what ThreadSanitizer adds to every frame is not ours
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+  bytes *= 8;  // what a sanitizer adds to every frame is not ours
 #endif
   pthread_attr_t attributes;
   REQUIRE(pthread_attr_init(&attributes) == 0);
