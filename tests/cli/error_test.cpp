@@ -155,7 +155,7 @@ TEST_CASE_FIXTURE(Fixture, "a file beyond what the command may write is an error
 
 TEST_CASE_FIXTURE(Fixture, "what a script prints cannot control a terminal") {
   folder.write("print.crt", "print(\"a\\tb\", \"\x1b[31m\xc2\x9b\")\nScene { }\n");
-  const Outcome run = run_crt(folder, {"check", "print.crt"});
+  const Outcome run = run_crt(folder, {"render", "print.crt", "--width", "4", "--height", "3"});
   CHECK(run.exit_code == 0);
   CHECK(contains(run.out, "a\tb \uFFFD[31m\uFFFD\n"));
 }
