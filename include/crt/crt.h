@@ -20,7 +20,9 @@
  *   their defaults.
  * - **Threads.** Each group of functions says who may call it. "Any thread" has no restriction.
  *   "One at a time" is for a scene that is being put together: only one thread may use it at any
- *   moment. "Shared" is for what is immutable: any number of threads may use it at once.
+ *   moment. "Shared" is for what is immutable: any number of threads may use it at once. A thread
+ *   that calls needs a stack of 256 kB. On less than 1.2 MB, macros and expressions of scripts nest
+ *   less deeply before they are CRT_ERROR_LIMIT.
  * - **Conventions.** Space is left-handed: x to the right, y up, z into the screen. Vectors are
  *   double[3]. Colours are double[3], linear RGB. Transforms are double[12], the three rows of a
  *   3x4 affine matrix (linear part, then translation). Angles are radians. Texts are UTF-8 and end
@@ -1097,6 +1099,10 @@ typedef struct crt_script_options {
   int32_t compat;   /**< 0: as the script's Settings say; 2015: it is a script of that year
                        (docs/compat.md) */
   int32_t reserved; /**< 0 */
+  /** Pixels that all pictures have together that the script or its meshes name, and heights of
+   * height fields. Headers of files say it before anything is decoded. 0: what a quarter of the
+   * process's memory is enough for at 16 bytes each, and at most 2^27. Since 1.1. */
+  uint64_t max_image_pixels;
 } crt_script_options;
 
 /** Fills in the defaults, which are all 0. */
@@ -1130,8 +1136,8 @@ CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script
  * looked for in the directory of the file and those below.
  * @param path     where the file is
  * @param options  NULL opens the file of that path. With options, the file is looked for like those
- *                 of a script in the current directory: resource_directories, allow_outside_files
- *                 and open_file count, the others do not.
+ *                 of a script in the current directory: resource_directories, allow_outside_files,
+ *                 open_file and max_image_pixels count, the others do not.
  * @return CRT_ERROR_IO if there is no such file or it is broken; the message has the line or byte
  */
 CRT_API crt_status crt_mesh_load(const char* path, const crt_script_options* options,
@@ -1403,7 +1409,10 @@ CRT_API crt_status crt_image_create(uint32_t width, uint32_t height, const float
  */
 CRT_API crt_status crt_image_from_rgba8(uint32_t width, uint32_t height, const uint8_t* pixels,
                                         size_t row_stride, crt_image** out);
-/** Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file. Its content decides which it is.
+/**
+ * Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file. Its content decides which it is.
+ * @return CRT_ERROR_LIMIT, before anything is decoded, if its header says that its pixels, at 16
+ *         bytes each, take more than a quarter of the process's memory
  */
 CRT_API crt_status crt_image_read(const char* path, crt_image** out);
 /**
@@ -1837,9 +1846,9 @@ typedef struct crt_farm_options {
   int32_t tile_height;  /**< pixels down; 0 if tile_width is */
   int32_t reserved;     /**< 0 */
   double least_seconds; /**< that a task may take on one core; 0: 60 */
-  /** NULL, or what the script gets. Of the limits max_steps alone counts. `print` and `poll` are
-   * not called. allow_outside_files and open_file are CRT_ERROR_INVALID_ARGUMENT, as the job has
-   * all files of the script. */
+  /** NULL, or what the script gets. Of the limits max_steps and max_image_pixels count. `print` and
+   * `poll` are not called. allow_outside_files and open_file are CRT_ERROR_INVALID_ARGUMENT, as the
+   * job has all files of the script. */
   const crt_script_options* script;
   /** NULL, or what the tasks get: `seed`, `passes`, `max_ray_steps` and `aovs`. Planning uses
    * `threads` and `progress`, which is first 0 and never 1. A region and a checkpoint are

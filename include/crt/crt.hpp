@@ -15,6 +15,7 @@
 #include <crt/field.hpp>
 #include <crt/file.hpp>
 #include <crt/image.hpp>
+#include <crt/image_limits.hpp>
 #include <crt/implicit_shapes.hpp>
 #include <crt/job.hpp>
 #include <crt/light.hpp>

@@ -60,8 +60,10 @@ class Image {
 
   /// Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file. Its content decides which it
   /// is. Grey becomes RGB, and of several pictures in a file the first is taken. Values that are
-  /// not finite become 0, which not_finite() reports. Throws Error: io if it is missing, broken or
-  /// larger than a picture may be, unsupported if OpenImageIO cannot be loaded, out_of_memory.
+  /// not finite become 0, which not_finite() reports. Throws Error: limit, before anything is
+  /// decoded, if its header says that it takes more than a quarter of the memory (see
+  /// crt/image_limits.hpp), io if it is missing, broken or larger than a picture may be,
+  /// unsupported if OpenImageIO cannot be loaded, out_of_memory.
   static Image read(const std::filesystem::path& path);
 
   /// Reads a picture from a file's content in memory, otherwise as read(). `name` is for messages.

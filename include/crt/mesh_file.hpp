@@ -2,12 +2,14 @@
 #pragma once
 
 #include <crt/entity.hpp>
+#include <crt/image.hpp>
 #include <crt/mesh.hpp>
 #include <crt/vec.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +49,10 @@ struct MeshFile {
 /// cannot be had, and then there is a warning with the error's message.
 using OpenMeshPart = std::function<std::vector<std::byte>(const std::string& name)>;
 
+/// Returns a picture that a mesh file names. Throws Error if it cannot be had. For ErrorCode::io
+/// and unsupported there is then a warning with the error's message, and anything else comes out.
+using OpenMeshPicture = std::function<std::shared_ptr<const Image>(const std::string& name)>;
+
 /// Reads a mesh file. The content shows its format; where it does not, the ending of the name does.
 /// Numbers in text become the nearest double, and those in binary stay what they are.
 ///
@@ -54,13 +60,17 @@ using OpenMeshPart = std::function<std::vector<std::byte>(const std::string& nam
 /// message then has the line or byte. Errors are also: no face at all, an index without a vertex,
 /// and a coordinate that is not finite or beyond 1e100. The memory it takes is in proportion to the
 /// file's size, whatever the file claims. Files that it names are opened by `open`. Without that
-/// they are looked for in its directory and those below, and nowhere else.
-MeshFile read_mesh_file(const std::filesystem::path& path, const OpenMeshPart& open = {});
+/// they are looked for in its directory and those below, and nowhere else. Pictures come from
+/// `open_picture`. Without that they are decoded from what `open` gives, and may have
+/// affordable_image_pixels() together, beyond which there is an Error (limit).
+MeshFile read_mesh_file(const std::filesystem::path& path, const OpenMeshPart& open = {},
+                        const OpenMeshPicture& open_picture = {});
 
 /// Reads a mesh file from memory, as the function above. Messages call it `name`, whose ending may
 /// show the format. It is read as `format` if there is one. Without `open` no file is opened.
 MeshFile decode_mesh_file(std::span<const std::byte> content, const std::string& name,
-                          std::optional<MeshFormat> format = {}, const OpenMeshPart& open = {});
+                          std::optional<MeshFormat> format = {}, const OpenMeshPart& open = {},
+                          const OpenMeshPicture& open_picture = {});
 
 /// Makes an entity of what was read, by triangle_mesh(). Messages call the file `name`. Throws
 /// Error as that does.

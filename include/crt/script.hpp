@@ -70,6 +70,10 @@ struct ScriptLimits {
                              << 30;     ///< about what all lists and strings hold together
   std::size_t source_bytes = 64 << 20;  ///< of a script and its imports together
   std::size_t errors = 20;              ///< reported before giving up
+  /// This is how many pixels all pictures have together that the script or its meshes name, and
+  /// heights of height fields. Headers of files say it before anything is decoded. 0 stands for
+  /// affordable_image_pixels().
+  std::uint64_t image_pixels = 0;
 };
 
 /// Says what a script may see and use. The defaults let it read files in its own directory alone.
@@ -135,9 +139,10 @@ ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOpti
 
 /// Makes an entity of a mesh file that is found as the files of a script in the current directory
 /// are: there, in the resource directories or by open_file(), and nowhere else unless the options
-/// allow it. So are the files that it names. `smooth` is that of MeshAttributes. Of the options for
-/// the mesh `warn` does not count: the MeshReport has the warnings. Throws Error (io) if there is
-/// none, and as load_mesh() in crt/mesh_file.hpp does. What open_file() throws comes out.
+/// allow it. So are the files that it names, whose pictures ScriptLimits::image_pixels limits.
+/// `smooth` is that of MeshAttributes. Of the options for the mesh `warn` does not count: the
+/// MeshReport has the warnings. Throws Error (io) if there is none, and as load_mesh() in
+/// crt/mesh_file.hpp does. What open_file() throws comes out.
 Entity load_mesh(const std::filesystem::path& path, const ScriptOptions& options,
                  std::optional<double> smooth = {}, const MeshOptions& mesh = {});
 

@@ -307,6 +307,13 @@ FIELDS = {
             "(docs/compat.md)",
         ),
         ("int32_t reserved", "0"),
+        (
+            "uint64_t max_image_pixels",
+            "Pixels that all pictures have together that the script or its meshes name, and "
+            "heights of height fields. Headers of files say it before anything is decoded. 0: "
+            "what a quarter of the process's memory is enough for at 16 bytes each, and at most"
+            " 2^27. Since 1.1.",
+        ),
     ),
     "crt_diagnostic": (
         ("int32_t severity", "a Severity"),
@@ -470,8 +477,8 @@ FIELDS = {
         ("double least_seconds", "that a task may take on one core; 0: 60"),
         (
             "const crt_script_options* script",
-            "None, or what the script gets. Of the limits max_steps alone counts. `print` and "
-            "`poll` are not called. allow_outside_files and open_file are "
+            "None, or what the script gets. Of the limits max_steps and max_image_pixels count."
+            " `print` and `poll` are not called. allow_outside_files and open_file are "
             "Status.INVALID_ARGUMENT, as the job has all files of the script.",
         ),
         (

@@ -164,6 +164,7 @@ def plan(
     compat: int = 0,
     resource_directories: Iterable[Path] = (),
     max_steps: int = 0,
+    max_image_pixels: int = 0,
     max_primitives: int = 0,
     max_ray_steps: int = 0,
     seed: int = 0,
@@ -189,7 +190,7 @@ def plan(
         t=t,
         compat=compat,
         resource_directories=resource_directories,
-        limits={"max_steps": max_steps},
+        limits={"max_steps": max_steps, "max_image_pixels": max_image_pixels},
     )
     render_options = options.make_options(
         guard,

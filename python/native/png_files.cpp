@@ -129,12 +129,8 @@ ImageFilesStatus decode_png(const ImageFilesContent& content, const ImageFilesPi
   const std::size_t width = png_get_image_width(reader.png, reader.info);
   const std::size_t height = png_get_image_height(reader.png, reader.info);
   const bool has_sixteen_bits = png_get_bit_depth(reader.png, reader.info) == 16;
-  if (width > content.max_pixels / height) {
-    return failed(error,
-                  ("its header says " + std::to_string(width) + " x " + std::to_string(height) +
-                   " pixels; the limit is " + std::to_string(content.max_pixels) + " altogether")
-                      .c_str());
-  }
+  if (!picture.accept(picture.context, static_cast<int>(width), static_cast<int>(height)))
+    return image_files_failed;
   int passes = 1;
   if (!start_reading(reader, passes)) return failed(error, reader.failure.message.data());
 

@@ -95,6 +95,7 @@ ScriptOptions to_options(const crt_script_options* options) {
   take_limit(result.limits.memory_bytes, given.max_memory_bytes);
   take_limit(result.limits.source_bytes, given.max_source_bytes);
   take_limit(result.limits.errors, given.max_errors);
+  take_limit(result.limits.image_pixels, given.max_image_pixels);
   take_callbacks(result, given);
   if (given.compat != 0 && given.compat != compat_2015) reject("compat", "must be 0 or 2015");
   result.compat = given.compat;

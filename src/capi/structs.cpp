@@ -159,7 +159,8 @@ std::span<const std::size_t> field_ends<crt_script_options>() {
                                       CRT_END(S, poll),
                                       CRT_END(S, poll_user),
                                       CRT_END(S, compat),
-                                      CRT_END(S, reserved)};
+                                      CRT_END(S, reserved),
+                                      CRT_END(S, max_image_pixels)};
   return ends;
 }
 

@@ -12,8 +12,8 @@ namespace crt::cli {
 
 /// Replaces standard streams that the caller closed by something that takes nothing. So no file
 /// that is opened later takes their numbers and gets what is meant for them. It also lets a pipe
-/// without a reader be an error instead of the end of the process. It must be called before
-/// anything else.
+/// without a reader, and a file that grows beyond what the process may write, be errors instead of
+/// the end of the process. It must be called before anything else.
 void hold_standard_streams();
 
 /// Writes text and flushes it, and says whether the stream took it. If not, errno says why.

@@ -66,7 +66,9 @@ class Farm {
       if (request_.verb == "status") show_status();
       if (request_.verb == "submit") submit();
     } catch (const Error& error) {
-      const bool is_usage = error.code() == ErrorCode::invalid_argument;
+      // A picture's name may have an ending that is no format, or one without channels.
+      const bool is_usage =
+          error.code() == ErrorCode::invalid_argument || error.code() == ErrorCode::unsupported;
       is_usage ? reporter_.add(error.code(), error.what(), ExitCode::usage) : reporter_.add(error);
     }
     return reporter_.finish();
@@ -173,6 +175,7 @@ class Farm {
   }
 
   void show_status() {
+    if (!request_.sheet.empty()) check_picture(request_.sheet, false);
     const FarmStatus status = farm_status(request_.target);
     reporter_.print(
         fmt::format("{} tasks: {} done, {} running, {} lost, {} waiting\n"

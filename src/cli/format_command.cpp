@@ -1,12 +1,13 @@
 // `crt format` lays scripts out.
 #include <fmt/format.h>
 
+#include <array>
 #include <crt/error.hpp>
 #include <crt/file.hpp>
+#include <crt/script.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <optional>
 #include <string>
 
@@ -20,8 +21,15 @@ namespace {
 
 const std::filesystem::path standard_streams = "-";
 
+/// Reads no more than what is too long to be formatted.
 std::string read_all(std::istream& stream) {
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string text;
+  std::array<char, 1 << 16> piece{};
+  while (stream && text.size() <= ScriptLimits{}.source_bytes) {
+    stream.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  return text;
 }
 
 std::string read_script(const std::filesystem::path& path) {
@@ -29,8 +37,10 @@ std::string read_script(const std::filesystem::path& path) {
   std::error_code failed;
   if (!std::filesystem::exists(path, failed))
     throw Error(ErrorCode::io, fmt::format("{}: there is no such file", path.string()));
-  std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, failed) || !file)
+  // To open a pipe would be to wait for somebody who writes to it.
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, failed)) file.open(path, std::ios::binary);
+  if (!file.is_open())
     throw Error(ErrorCode::io, fmt::format("{}: it cannot be read", path.string()));
   return read_all(file);
 }

@@ -83,6 +83,17 @@ void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request) {
          if (!parse_whole(value, script.limits.steps))
            throw WrongValue("--max-steps", "a whole number", value);
        }});
+  rows.push_back({.names = "--max-image-pixels",
+                  .type = "N",
+                  .help =
+                      "pixels that all pictures of the script may have together (what a quarter "
+                      "of the memory is enough for, and at most 134217728)",
+                  .take = [&script](const std::string& value) {
+                    if (!parse_whole(value, script.limits.image_pixels)) {
+                      throw WrongValue("--max-image-pixels",
+                                       "a whole number, 0 for what memory is enough for", value);
+                    }
+                  }});
   rows.push_back({.names = "--diagnostics",
                   .type = "text|json",
                   .help = "how errors and warnings are written: as text, or all as one JSON array "

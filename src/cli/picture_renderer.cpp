@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/format_loader.hpp"
+#include "text/printable.hpp"
 
 namespace crt::cli {
 
@@ -16,7 +17,8 @@ ScriptResult run_scene(const ScriptSource& script, const ScriptOptions& options,
                        bool output_is_free, Reporter& reporter) {
   ScriptOptions with_print = options;
   with_print.print = [&](std::string_view line) {
-    const std::string text = fmt::format("{}\n", line);
+    // Control characters could make a terminal do anything.
+    const std::string text = text::printable(line, text::Kept::tabs_and_line_ends) + "\n";
     output_is_free ? reporter.print(text) : reporter.say(text);
   };
   ScriptResult result = script.run(with_print);

@@ -28,6 +28,7 @@ int spawn(const std::string& program, const std::vector<std::string>& words,
   sigset_t usual;
   sigemptyset(&usual);
   sigaddset(&usual, SIGPIPE);
+  sigaddset(&usual, SIGXFSZ);
   posix_spawnattr_setsigdefault(&attributes, &usual);
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, own_group ? POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP

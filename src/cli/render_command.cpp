@@ -61,12 +61,7 @@ class RenderJob {
       }
       return true;
     } catch (const Error& error) {
-      // What a file needs may be missing, which is known only when it is loaded.
-      if (error.code() == ErrorCode::unsupported) {
-        reporter_.add(error.code(), error.what(), ExitCode::files);
-      } else {
-        reporter_.add(error);
-      }
+      reporter_.add(error);
     }
     return false;
   }

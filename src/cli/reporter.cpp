@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "cli/console.hpp"
+#include "text/printable.hpp"
 
 namespace crt::cli {
 
@@ -20,10 +21,10 @@ ExitCode exit_code_of(ErrorCode code) {
     case ErrorCode::limit:
       return ExitCode::script;
     case ErrorCode::io:
+    case ErrorCode::unsupported:  // what reads or writes such files is not installed
       return ExitCode::files;
     case ErrorCode::cancelled:
       return ExitCode::interrupted;
-    case ErrorCode::unsupported:
     case ErrorCode::out_of_memory:
     case ErrorCode::internal:
       break;
@@ -98,7 +99,9 @@ void Reporter::add_one(const Diagnostic& diagnostic, const std::string& text) {
   if (quiet_ && diagnostic.severity == Severity::warning) return;
   if (!texts_.insert(text).second) return;
   told_.push_back(diagnostic);
-  if (format_ == DiagnosticsFormat::text) say(text);
+  // What a message quotes may come from anywhere.
+  if (format_ == DiagnosticsFormat::text)
+    say(text::printable(text, text::Kept::tabs_and_line_ends));
 }
 
 ExitCode Reporter::finish() {

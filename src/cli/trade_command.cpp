@@ -10,6 +10,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/picture_renderer.hpp"
 #include "cli/progress.hpp"
 #include "cli/reporter.hpp"
 #include "cli/script_source.hpp"
@@ -89,9 +90,8 @@ class Trade {
   /// Says whether there is a scene and a part of it to measure. If not, it reports what is wrong.
   bool prepare_scene() {
     ScriptOptions options = request_.script;
-    options.print = [this](std::string_view line) { reporter_.say(fmt::format("{}\n", line)); };
-    ScriptResult result = ScriptSource(request_.scene, options.limits).run(options);
-    reporter_.add(result.diagnostics);
+    const ScriptSource script(request_.scene, options.limits);
+    ScriptResult result = run_scene(script, options, false, reporter_);
     if (!result.scene) return false;
     scene_ = std::move(*result.scene);
     const Settings& settings = scene_.settings;

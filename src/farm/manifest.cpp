@@ -191,6 +191,9 @@ Manifest read(const Json& object) {
   manifest.settings = pairs(object, "settings");
   manifest.compat = whole_member(object, "compat", 0);
   manifest.max_steps = whole_member<std::uint64_t>(object, "max_steps", 0);
+  if (object.contains("max_image_pixels")) {
+    manifest.max_image_pixels = whole_member<std::uint64_t>(object, "max_image_pixels", 0);
+  }
   if (object.contains("frames")) {
     const Json& frames = object.at("frames");
     if (!frames.is_array() || frames.size() != 2) fail("'frames' must have two numbers");
@@ -227,6 +230,7 @@ std::string to_text(const Manifest& manifest) {
   if (manifest.files.empty()) object["files"] = Json::object();
   if (manifest.frames) object["frames"] = {manifest.frames->first, manifest.frames->last};
   if (manifest.seed) object["seed"] = *manifest.seed;
+  if (manifest.max_image_pixels > 0) object["max_image_pixels"] = manifest.max_image_pixels;
   object["aovs"] = Json::array();
   for (const auto& [name, asked] : aov_names) {
     if (manifest.aovs.*asked) object["aovs"].push_back(name);

@@ -33,6 +33,7 @@ struct Manifest {
   std::vector<std::pair<std::string, std::string>> settings{};
   int compat = 0;
   std::uint64_t max_steps = 0;
+  std::uint64_t max_image_pixels = 0;
   std::optional<FarmFrames> frames{};
   int width = 0;
   int height = 0;

@@ -89,8 +89,9 @@ class Merger {
     const Image image = assembly.finish();
     assemblies_.erase(frame);
     is_writing_ = true;
-    image.write(options_.output ? options_.output(frame) : default_output(job_, frame),
-                {.reproducible = true});
+    const fs::path output = options_.output ? options_.output(frame) : default_output(job_, frame);
+    if (!options_.output) check_replaceable(output);
+    image.write(output, {.reproducible = true});
     is_writing_ = false;
     result_.frames.push_back(frame);
   }

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
+#include <cstring>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 
 #include "core/base/state_file.hpp"
+#include "core/base/whole_file.hpp"
 #include "crt/validate.hpp"
 
 namespace crt::farm {
@@ -200,6 +202,7 @@ std::vector<RenderedPiece> read_whole_part(const Job& job, int task, core::State
 }  // namespace
 
 void write_part(const Job& job, int task, const std::vector<RenderedPiece>& pieces) {
+  check_replaceable(job.part_file(task));
   core::write_state_file(job.part_file(task), [&](core::StateWriter& out) {
     out.put(magic);
     out.put_all(std::span<const char>(job.id));
@@ -222,15 +225,29 @@ std::vector<RenderedPiece> read_part(const Job& job, int task) {
 }
 
 bool has_part(const Job& job, int task) {
-  std::ifstream file(job.part_file(task), std::ios::binary);
   PartHead head;
-  const auto read = [&](auto* to, std::size_t size) {
-    file.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(size));
-  };
-  read(&head.magic, sizeof head.magic);
-  read(head.plan.data(), head.plan.size());
-  read(&head.task, sizeof head.task);
-  return file && head.is_of(job, task);
+  constexpr std::size_t head_size = sizeof head.magic + sizeof head.plan + sizeof head.task;
+  try {
+    const std::vector<std::byte> start = core::read_file_start(job.part_file(task), head_size);
+    if (start.size() < head_size) return false;
+    const std::byte* from = start.data();
+    std::memcpy(&head.magic, from, sizeof head.magic);
+    std::memcpy(head.plan.data(), from += sizeof head.magic, sizeof head.plan);
+    std::memcpy(&head.task, from + sizeof head.plan, sizeof head.task);
+  } catch (const Error&) {
+    return false;
+  }
+  return head.is_of(job, task);
+}
+
+void check_replaceable(const std::filesystem::path& file) {
+  std::error_code failed;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(file, failed);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw Error(ErrorCode::io,
+                fmt::format("cannot write '{}': there is something that is no regular file",
+                            file.string()));
+  }
 }
 
 }  // namespace crt::farm

@@ -37,4 +37,8 @@ std::vector<RenderedPiece> read_part(const Job& job, int task);
 /// Says whether the part's beginning is that of this plan and task. The rest is not read.
 bool has_part(const Job& job, int task);
 
+/// Throws Error (io) where a file of a job is to be written and there is something else than a
+/// regular file: a pipe would make the worker wait, and a link lead it out of the job.
+void check_replaceable(const std::filesystem::path& file);
+
 }  // namespace crt::farm

@@ -81,6 +81,7 @@ Manifest manifest_of(const fs::path& script, const FarmOptions& options) {
           .settings = options.script.settings,
           .compat = options.script.compat,
           .max_steps = options.script.limits.steps,
+          .max_image_pixels = options.script.limits.image_pixels,
           .frames = options.frames,
           .seed = options.render.seed,
           .passes = options.render.passes,

@@ -47,6 +47,7 @@ ScriptResult run_job_script(const Manifest& manifest, double t, const OpenSceneF
                         .settings = manifest.settings,
                         .compat = manifest.compat};
   options.limits.steps = manifest.max_steps;
+  options.limits.image_pixels = manifest.max_image_pixels;
   for (int i = 0; i < manifest.resource_folders; ++i)
     options.resource_directories.push_back(fs::path(root) / resources_name / std::to_string(i));
   options.open_file = [&](const fs::path& path) -> std::optional<Content> {

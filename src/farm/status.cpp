@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
+#include "core/base/whole_file.hpp"
 #include "farm/part.hpp"
+#include "text/printable.hpp"
 
 namespace crt::farm {
 
@@ -15,15 +17,25 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds silence_of_lost(60);
 
+/// Returns the beginning of a task's log, or nothing.
+std::string log_of(const Job& job, int task) {
+  constexpr std::size_t most_bytes = 400;
+  try {
+    const std::vector<std::byte> log = core::read_file_start(job.log_file(task), most_bytes);
+    return {reinterpret_cast<const char*>(log.data()), log.size()};
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 FarmTask status_of(const Job& job, int task) {
   FarmTask status{.estimated = job.manifest.tasks[static_cast<std::size_t>(task)].seconds};
-  std::ifstream log(job.log_file(task));
+  std::istringstream log(log_of(job, task));
   double share = 0;
   double seconds = 0;
-  constexpr std::size_t longest_name = 300;
-  log.width(longest_name);
   const bool has_log = static_cast<bool>(log >> status.worker >> share >> seconds);
-  if (!has_log) status.worker.clear();
+  // Anybody may have written it.
+  status.worker = has_log ? text::printable(status.worker) : "";
   if (has_part(job, task)) {
     status.state = FarmTaskState::done;
     status.share = 1;

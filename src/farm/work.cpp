@@ -39,6 +39,7 @@ class WorkLog {
   void write(double share, double seconds) {
     written_ = Clock::now();
     try {
+      check_replaceable(file_);
       write_file(file_, fmt::format("{} {:.3f} {:.6f}\n", worker_, share, seconds));
     } catch (const Error&) {
       return;
@@ -157,6 +158,7 @@ bool work_farm(const std::filesystem::path& job, int task, const FarmWorkOptions
                 fmt::format("there is no task {}: the job has 0 to {}", task, tasks - 1), "task");
   }
   if (farm::is_whole(opened, task)) return false;
+  farm::check_replaceable(opened.part_file(task));
   farm::WorkLog log(opened, task);
   farm::TaskRenderer renderer(opened, options);
   farm::write_part(opened, task,

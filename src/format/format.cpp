@@ -87,17 +87,21 @@ class Writer {
     return i;
   }
 
-  std::size_t indent_of(std::size_t first) const {
+  std::size_t indent_of(std::size_t first) {
     if (is_closing(pieces_[first].role)) return open_.empty() ? 0 : open_.back();
     const std::size_t inside = open_.empty() ? 0 : open_.back() + indentation;
-    // A comment stands where the code below it stands.
-    while (first + 1 < pieces_.size() && pieces_[first].role == Role::comment) ++first;
-    return inside + (pieces_[first].continues ? indentation : 0);
+    // A comment stands where the code below it stands. That is looked for once for all that are
+    // above it.
+    code_below_ = std::max(code_below_, first);
+    while (code_below_ + 1 < pieces_.size() && pieces_[code_below_].role == Role::comment)
+      ++code_below_;
+    return inside + (pieces_[code_below_].continues ? indentation : 0);
   }
 
   const std::vector<Piece>& pieces_;
   std::vector<Line> lines_;
   std::vector<std::size_t> open_;  ///< indentation of the line that each open bracket is on
+  std::size_t code_below_ = 0;     ///< the first piece from the last line on that is no comment
 };
 
 /// Returns the column for the comments behind the lines [begin, end): that which they stand in, if

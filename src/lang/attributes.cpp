@@ -314,6 +314,7 @@ void convert(const Given& given, Context& context, HeightRows& field) {
                                 i, items.size(), columns));
     }
     context.spend(given.value_span, items.size());
+    context.files.take_pixels(items.size(), given.value_span);
     for (const Value& item : items) {
       double storage = 0;
       const double* number = as_float(item, storage);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <type_traits>
+#include <variant>
 
 namespace crt::lang {
 
@@ -12,6 +14,15 @@ namespace {
 
 /// More calls than this do not fit on an ordinary thread's stack.
 constexpr std::size_t deepest_calls = 1000;
+
+/// Says whether a value is counted by its users, and not copied.
+bool is_shared(const Value& value) {
+  return std::visit(
+      [](const auto& held) {
+        return !std::is_trivially_copyable_v<std::remove_cvref_t<decltype(held)>>;
+      },
+      value);
+}
 
 ScriptLimits bearable(ScriptLimits limits) {
   limits.call_depth = std::min(limits.call_depth, deepest_calls);
@@ -67,6 +78,12 @@ void Context::spend(Span span, std::size_t steps) {
   if (steps_ > next_pause_) pause(span);
 }
 
+void Context::spend_on_items(Span span, const std::vector<Value>& items) {
+  const auto shared = std::count_if(items.begin(), items.end(), is_shared);
+  const std::size_t plain = items.size() - static_cast<std::size_t>(shared);
+  spend(span, (plain + items_of_shared * static_cast<std::size_t>(shared)) / items_per_step);
+}
+
 void Context::count_made(Span span) {
   spend(span, steps_per_entity);
   if (++made_ > limits.entities)
@@ -108,7 +125,7 @@ Value Context::make_string(Span span, std::string text) {
 }
 
 Value Context::make_list(Span span, std::vector<Value> items) {
-  spend(span, items.size() / items_per_step);
+  spend_on_items(span, items);
   int depth = 1;
   for (const Value& item : items) {
     if (const List* list = std::get_if<List>(&item)) depth = std::max(depth, (*list)->depth + 1);
@@ -116,7 +133,7 @@ Value Context::make_list(Span span, std::vector<Value> items) {
   if (depth > deepest_list)
     pass_limit(span, fmt::format("lists nested more than {} deep", deepest_list));
   Charge charge = charge_memory(span, sizeof(ListValue) + items.capacity() * sizeof(Value));
-  return std::make_shared<const ListValue>(ListValue{std::move(items), depth, std::move(charge)});
+  return std::make_shared<ListValue>(ListValue{std::move(items), depth, std::move(charge)});
 }
 
 void Context::print(Span span, const std::string& line) {

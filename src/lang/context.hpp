@@ -19,6 +19,8 @@ namespace crt::lang {
 
 /// Work that copies or compares is paid for in steps, so that no step takes long.
 constexpr std::size_t items_per_step = 16;
+/// Copying what is shared counts its users, and takes as long as so many plain items.
+constexpr std::size_t items_of_shared = 8;
 constexpr std::size_t bytes_per_step = 64;
 
 /// An entity takes about as long to make as so many expressions to evaluate.
@@ -52,6 +54,8 @@ class Context {
       pause(span);
   }
   void spend(Span span, std::size_t steps);
+  /// Pays for copying the items of a list.
+  void spend_on_items(Span span, const std::vector<Value>& items);
 
   /// Counts an entity that was made.
   void count_made(Span span);

@@ -2,6 +2,8 @@
 // inlined. That keeps the frame of evaluate() small, of which there can be many on the stack.
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
 #include <variant>
 
 #include "lang/attributes.hpp"
@@ -116,11 +118,42 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   return evaluate(condition(*conditional.condition, "'?'") ? *conditional.yes : *conditional.no);
 }
 
+/// Evaluates `list = list + more`, if it is that. A list that only the variable has grows in place.
+[[gnu::noinline]] std::optional<Value> Interpreter::append_to_variable(
+    const Assignment& assignment) {
+  const Symbol symbol = assignment.name.symbol;
+  const auto* sum = std::get_if<Chain>(&assignment.value->node);
+  if (!sum || sum->links.size() != 1 || sum->links[0].op != BinaryOperator::add) return {};
+  const auto* name = std::get_if<Name>(&sum->first->node);
+  if (!name || name->symbol != symbol) return {};
+  const Value* const variable = scope_->find(symbol);
+  if (!variable || !std::holds_alternative<List>(*variable)) return {};
+
+  context_.step(assignment.value->span);
+  context_.step(sum->first->span);
+  const auto& [op, op_span, operand] = sum->links[0];
+  const Value list = *variable;
+  const Value more = evaluate(*operand);
+  Scope& scope = scope_->target_of(symbol);
+  const Value* const now = scope.has(symbol) ? scope.find(symbol) : nullptr;
+  const List* const kept = now ? std::get_if<List>(now) : nullptr;
+  constexpr long variable_and_list = 2;
+  if (kept && std::holds_alternative<List>(more) && *kept == std::get<List>(list) &&
+      kept->use_count() == variable_and_list) {
+    append(context_, op_span, *kept, *std::get<List>(more));
+    return list;
+  }
+  Value value = binary(context_, op, op_span, list, more);
+  scope.set(symbol, value);
+  return value;
+}
+
 [[gnu::noinline]] Value Interpreter::evaluate_node(const Assignment& assignment,
                                                    const Expression&) {
   const Symbol name = assignment.name.symbol;
   if (overridden_.contains(name) && &scope_->target_of(name) == globals_.get())
     return *globals_->find(name);
+  if (std::optional<Value> list = append_to_variable(assignment)) return std::move(*list);
   Value value = evaluate(*assignment.value);
   if (std::holds_alternative<Nothing>(value))
     fail(assignment.value->span, "this call has no value");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "lang/check.hpp"
 #include "lang/failure.hpp"
@@ -10,6 +11,21 @@
 #include "lang/word_byte.hpp"
 
 namespace crt::lang {
+
+namespace {
+
+/// Says whether what follows a number is a '--' that was hardly meant as a comment: it touches the
+/// number, or no words are in the comment. `crt format` moves it away from the number.
+bool is_decrement(std::string_view behind) {
+  constexpr std::string_view sign = "--";
+  if (behind.starts_with(sign)) return true;
+  const std::size_t comment = behind.find_first_not_of(" \t");
+  if (comment == std::string_view::npos || !behind.substr(comment).starts_with(sign)) return false;
+  const std::string_view text = behind.substr(comment + sign.size());
+  return text.empty() || std::string_view("\r\n;,)]}").find(text.front()) != std::string_view::npos;
+}
+
+}  // namespace
 
 void Interpreter::run(const Script& script, bool is_import) {
   has_begun_ = true;
@@ -229,7 +245,7 @@ std::string Interpreter::how_to_call(const MacroValue& macro, Span span) const {
   const std::string_view behind = std::string_view(source.text).substr(span.end - source.base);
   const bool is_number =
       std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value);
-  if (is_number && behind.starts_with("--"))
+  if (is_number && is_decrement(behind))
     return ", as '--' begins a comment; to subtract 1, write '-= 1'";
   return {};
 }

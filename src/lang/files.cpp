@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "crt/image_limits.hpp"
 #include "crt/mesh_file.hpp"
 #include "lang/utf8.hpp"
 
@@ -137,18 +138,47 @@ std::string Files::read_text(Found found, std::size_t most_bytes, Span span) con
   return std::move(*text);
 }
 
-namespace {
+std::uint64_t Files::most_pixels() {
+  if (most_pixels_ == 0) {
+    const std::uint64_t given = options_.limits.image_pixels;
+    most_pixels_ = given == 0 ? std::max<std::uint64_t>(affordable_image_pixels(), 1) : given;
+  }
+  return most_pixels_;
+}
+
+void Files::pass_pixel_limit(Span span, const std::string& message) {
+  throw Failure{.span = span,
+                .message = fmt::format("{}: all pictures of a script may have {} pixels together",
+                                       message, most_pixels()),
+                .code = ErrorCode::limit};
+}
+
+void Files::take_pixels(std::uint64_t count, Span span) {
+  if (count > most_pixels() - pixels_) pass_pixel_limit(span, "there are too many heights");
+  pixels_ += count;
+}
 
 /// Decodes an image. Values that are not finite become 0, of which it warns.
-Image read_image(const Files::Found& found, Span span, Reporter& reporter) {
-  Image image = found.content ? Image::decode(*found.content, found.shown.string())
-                              : Image::read(found.shown);
-  if (image.not_finite().pixels > 0) {
-    reporter.warning(span, printable(image.not_finite().message()));
-    image.set_not_finite({});
+Image Files::read_image(const Found& found, Span span, Reporter* reporter) {
+  const std::string shown = found.shown.string();
+  const std::uint64_t left = most_pixels() - pixels_;
+  if (left == 0) pass_pixel_limit(span, fmt::format("cannot read '{}'", abbreviated(shown)));
+  try {
+    Image image = found.content ? decode_image(*found.content, shown, left)
+                                : crt::read_image(found.shown, left);
+    pixels_ += image.pixels().size() / 4;
+    if (reporter != nullptr && image.not_finite().pixels > 0) {
+      reporter->warning(span, printable(image.not_finite().message()));
+      image.set_not_finite({});
+    }
+    return image;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::limit) pass_pixel_limit(span, printable(error.what()));
+    throw;
   }
-  return image;
 }
+
+namespace {
 
 /// Calls make(), whose errors are about a file that is named at `span`.
 template <class Make>
@@ -162,8 +192,8 @@ auto made_of_file(Span span, const Make& make) {
 
 }  // namespace
 
-std::shared_ptr<const Image> Files::image(const std::string& name, const fs::path& directory,
-                                          Span span, Reporter& reporter) {
+std::shared_ptr<const Image> Files::picture(const std::string& name, const fs::path& directory,
+                                            Span span, Reporter* reporter) {
   const Found found = find(name, directory, span);
   std::shared_ptr<const Image>& image = images_[found.path];
   if (!image) {
@@ -171,6 +201,11 @@ std::shared_ptr<const Image> Files::image(const std::string& name, const fs::pat
         span, [&] { return std::make_shared<const Image>(read_image(found, span, reporter)); });
   }
   return image;
+}
+
+std::shared_ptr<const Image> Files::image(const std::string& name, const fs::path& directory,
+                                          Span span, Reporter& reporter) {
+  return picture(name, directory, span, &reporter);
 }
 
 /// Returns the content of a file that a mesh file names, such as a picture.
@@ -188,13 +223,23 @@ std::vector<std::byte> Files::part_of_mesh(const std::string& name, const fs::pa
   }
 }
 
+std::shared_ptr<const Image> Files::picture_of_mesh(const std::string& name,
+                                                    const fs::path& directory, Span span,
+                                                    Reporter* reporter) {
+  try {
+    return picture(name, directory, span, reporter);
+  } catch (const Failure& failure) {
+    throw Error(failure.code, failure.message);
+  }
+}
+
 std::shared_ptr<const HeightGrid> Files::heights(const std::string& name, const fs::path& directory,
                                                  Span span, Reporter& reporter) {
   const Found found = find(name, directory, span);
   std::shared_ptr<const HeightGrid>& heights = heights_[found.path];
   if (!heights) {
     heights =
-        made_of_file(span, [&] { return make_height_grid(read_image(found, span, reporter)); });
+        made_of_file(span, [&] { return make_height_grid(read_image(found, span, &reporter)); });
   }
   return heights;
 }
@@ -218,8 +263,11 @@ std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::pat
     const OpenMeshPart open = [&](const std::string& part) {
       return part_of_mesh(part, found.shown.parent_path(), span);
     };
-    MeshFile file = found.content ? decode_mesh_file(*found.content, shown, {}, open)
-                                  : read_mesh_file(found.shown, open);
+    const OpenMeshPicture open_picture = [&](const std::string& part) {
+      return picture_of_mesh(part, found.shown.parent_path(), span, reporter);
+    };
+    MeshFile file = found.content ? decode_mesh_file(*found.content, shown, {}, open, open_picture)
+                                  : read_mesh_file(found.shown, open, open_picture);
     file.attributes.smooth = way.smooth;
     MeshOptions options{.fill = way.fill, .weld = way.weld, .stitch = way.stitch};
     if (reporter != nullptr) {

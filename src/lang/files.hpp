@@ -69,6 +69,10 @@ class Files {
                                      const std::filesystem::path& directory, Span span,
                                      const MeshWay& way, Reporter* reporter);
 
+  /// Takes so many pixels from those that the script's pictures may have. Throws Failure (limit) if
+  /// there are not so many left.
+  void take_pixels(std::uint64_t count, Span span);
+
   /// Returns a font, which is read once a run.
   std::shared_ptr<const Font> font(const std::string& name, const std::filesystem::path& directory,
                                    Span span);
@@ -80,6 +84,15 @@ class Files {
   bool is_really_open(const std::filesystem::path& canonical) const;
   std::vector<std::byte> part_of_mesh(const std::string& name,
                                       const std::filesystem::path& directory, Span span) const;
+  std::uint64_t most_pixels();
+  [[noreturn]] void pass_pixel_limit(Span span, const std::string& message);
+  Image read_image(const Found& found, Span span, Reporter* reporter);
+  std::shared_ptr<const Image> picture_of_mesh(const std::string& name,
+                                               const std::filesystem::path& directory, Span span,
+                                               Reporter* reporter);
+  std::shared_ptr<const Image> picture(const std::string& name,
+                                       const std::filesystem::path& directory, Span span,
+                                       Reporter* reporter);
 
   const ScriptOptions& options_;
   std::filesystem::path script_directory_;
@@ -88,6 +101,8 @@ class Files {
   std::map<std::filesystem::path, MeshesByWay> meshes_;
   std::map<std::filesystem::path, std::shared_ptr<const Font>> fonts_;
   std::map<std::filesystem::path, std::shared_ptr<const HeightGrid>> heights_;
+  std::uint64_t most_pixels_ = 0;  ///< that pictures may have together; 0 until it is known
+  std::uint64_t pixels_ = 0;       ///< that they have
 };
 
 /// Returns the whole of a regular file, or nothing if it cannot be read or has more than

@@ -129,6 +129,7 @@ class Interpreter {
   Value evaluate_node(const Logical& logical, const Expression& expression);
   Value evaluate_node(const Conditional& conditional, const Expression& expression);
   Value evaluate_node(const Assignment& assignment, const Expression& expression);
+  std::optional<Value> append_to_variable(const Assignment& assignment);
   std::vector<Given> evaluate_attributes(const ObjectType& type,
                                          const std::vector<AttributeSyntax>& attributes);
   Entity modify(const Entity& entity, const Modifier& modifier);  // modify.cpp
@@ -151,7 +152,7 @@ class Interpreter {
   void capture_scopes(Span span);
 
   Context& context_;
-  std::uintptr_t stack_start_;
+  std::uintptr_t stack_end_;         ///< the lowest place that calls and expressions may reach
   std::shared_ptr<Scope> universe_;  ///< built-ins and constants
   std::shared_ptr<Scope> globals_;
   std::shared_ptr<Scope> scope_;  ///< the one that runs now

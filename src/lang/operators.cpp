@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <crt/elementary.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -338,6 +339,24 @@ Value binary(Context& context, BinaryOperator op, Span op_span, const Value& lef
   const double* y = as_float(right, right_room);
   if (x && y) return floats(op, op_span, *x, *y);
   return other_types(context, op, op_span, left, right);
+}
+
+void append(Context& context, Span op_span, const List& list, const ListValue& more) {
+  // Lists are made as what may change.
+  auto& grown =
+      const_cast<ListValue&>(*list);  // NOLINT(cppcoreguidelines-pro-type-const-cast): ours
+  std::vector<Value>& items = grown.items;
+  const std::size_t count = items.size() + more.items.size();
+  context.check_list_size(op_span, count);
+  context.spend_on_items(op_span, more.items);
+  if (count > items.capacity()) {
+    const std::size_t room = std::max(count, items.capacity() + items.capacity() / 2);
+    Charge charge = context.charge_memory(op_span, (room - items.capacity()) * sizeof(Value));
+    items.reserve(room);
+    grown.charge.add(std::move(charge));
+  }
+  items.insert(items.end(), more.items.begin(), more.items.end());
+  grown.depth = std::max(grown.depth, more.depth);
 }
 
 Value unary(UnaryOperator op, Span span, const Value& operand) {

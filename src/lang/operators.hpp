@@ -11,6 +11,11 @@ namespace crt::lang {
 Value binary(Context& context, BinaryOperator op, Span op_span, const Value& left,
              const Value& right);
 
+/// Appends to a list that nobody else has, in time that depends on `more` alone but for what
+/// growing takes. A list that is made item by item so takes time in proportion to its length. It
+/// throws, and leaves the list as it is, where the sum would throw.
+void append(Context& context, Span op_span, const List& list, const ListValue& more);
+
 /// Computes op operand. Errors stand at the operand's span.
 Value unary(UnaryOperator op, Span span, const Value& operand);
 

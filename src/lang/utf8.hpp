@@ -2,26 +2,19 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 
+#include "text/printable.hpp"
+
 namespace crt::lang {
 
-/// Returns the code point that starts at `position`, and moves that past it. Where the bytes are
-/// not UTF-8 (RFC 3629: no overlong forms, no surrogates) it returns nothing and moves past one
-/// byte. `position` is within `text`.
-std::optional<char32_t> decode_utf8(std::string_view text, std::size_t& position);
-
-void append_utf8(std::string& text, char32_t code_point);
+using text::append_utf8;
+using text::decode_utf8;
+using text::printable;
 
 /// Counts the code points in `text`. A byte that is not UTF-8 counts as one.
 std::size_t count_code_points(std::string_view text);
-
-/// Returns the text with everything that could upset a terminal or a JSON reader replaced by
-/// U+FFFD, the replacement character. That is control characters but the tab, and bytes that are
-/// not UTF-8.
-std::string printable(std::string_view text);
 
 /// Returns the printable text, cut off where it is longer than a message should be.
 std::string abbreviated(std::string_view text);

@@ -59,6 +59,13 @@ class Charge {
     if (counter_) *counter_ -= bytes_;
   }
 
+  /// Takes over what another has of the same counter.
+  void add(Charge other) {
+    if (!counter_) counter_ = other.counter_;
+    bytes_ += other.bytes_;
+    other.counter_ = nullptr;
+  }
+
  private:
   std::size_t* counter_ = nullptr;
   std::size_t bytes_ = 0;

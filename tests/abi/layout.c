@@ -157,7 +157,7 @@ AT(crt_settings, reserved_3, 140);
 AT(crt_settings, ambient_model, 144);
 AT(crt_settings, no_head_light, 148);
 
-SIZE(crt_script_options, 200);
+SIZE(crt_script_options, 208);
 AT(crt_script_options, struct_size, 0);
 AT(crt_script_options, allow_outside_files, 4);
 AT(crt_script_options, resource_directories, 8);
@@ -185,6 +185,7 @@ AT(crt_script_options, poll, 176);
 AT(crt_script_options, poll_user, 184);
 AT(crt_script_options, compat, 192);
 AT(crt_script_options, reserved, 196);
+AT(crt_script_options, max_image_pixels, 200);
 
 SIZE(crt_diagnostic, 56);
 AT(crt_diagnostic, struct_size, 0);

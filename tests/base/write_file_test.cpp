@@ -1,6 +1,7 @@
 // These tests write files, and check what is replaced and what stays as it is.
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "core/base/whole_file.hpp"
 #include "support/temporary_directory.hpp"
 
 using namespace crt;
@@ -230,6 +232,38 @@ TEST_CASE("a pipe whose reader goes away is an error, and no signal ends the pro
   }
   reader.join();
   CHECK(message.find("Broken pipe") != std::string::npos);
+}
+
+TEST_CASE("a file beyond what the process may write is an error that leaves nothing") {
+  CHECK(as_common_user([] {
+    // The folder is of this user, whoever that is.
+    const TemporaryDirectory own;
+    const fs::path file = own / "large";
+    rlimit limit{};
+    if (getrlimit(RLIMIT_FSIZE, &limit) != 0) return false;
+    limit.rlim_cur = 1000;
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return false;
+    bool is_error = false;
+    try {
+      write_file(file, std::string(5000, 'x'));
+    } catch (const Error& error) {
+      is_error = error.code() == ErrorCode::io;
+    }
+    write_file(own / "small", "x");
+    return is_error && std::distance(fs::directory_iterator(own.path()), {}) == 1;
+  }));
+}
+
+TEST_CASE("a file that is longer than memory allows is refused before it is read") {
+  const TemporaryDirectory directory;
+  const fs::path file = directory / "sparse";
+  put(file, "start");
+  std::error_code failed;
+  constexpr std::uintmax_t terabyte = std::uintmax_t{1} << 40;
+  fs::resize_file(file, terabyte, failed);
+  if (failed) return;  // this file system has no such files
+  CHECK_THROWS_AS(core::read_whole_file(file, 2 * terabyte), Error);
+  CHECK(core::read_file_start(file, 5).size() == 5);
 }
 
 TEST_CASE("a device is written to and stays one") {

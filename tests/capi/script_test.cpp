@@ -115,6 +115,17 @@ TEST_CASE("the first error decides the status") {
   CHECK(says("no/such/file.crt"));
 }
 
+TEST_CASE("the pictures of a script have a limit in pixels") {
+  crt_script_options few = options();
+  few.max_image_pixels = 8;
+  const char* const field =
+      "row = [0, 0.5, 1]\nScene { HeightField { heights -> [row, row, row] "
+      "cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, 1) } }";
+  CHECK(run(field, &few).status == CRT_ERROR_LIMIT);
+  few.max_image_pixels = 9;
+  CHECK(run(field, &few).status == CRT_OK);
+}
+
 TEST_CASE("variables, settings and t come from outside") {
   crt_script_options given = options();
   const char* const names[] = {"n", "name"};

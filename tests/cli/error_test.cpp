@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include <string>
 #include <vector>
@@ -54,6 +55,18 @@ TEST_CASE_FIXTURE(Fixture, "--max-steps stops a script that goes on too long") {
   CHECK(contains(run.err, "loop.crt:2:"));
 }
 
+TEST_CASE_FIXTURE(Fixture, "--max-image-pixels stops a script with pictures that are too large") {
+  folder.write("field.crt",
+               "Settings { width -> 4 height -> 3 }\nrow = [0, 0.5, 1]\n"
+               "Scene { HeightField { heights -> [row, row] cornerA -> vec3(0, 0, 0) "
+               "cornerB -> vec3(1, 1, 1) } }\n");
+  CHECK(run_crt(folder, {"check", "field.crt", "--max-image-pixels", "6"}).exit_code == 0);
+  const Outcome run = run_crt(folder, {"check", "field.crt", "--max-image-pixels", "5"});
+  CHECK(run.exit_code == script_error);
+  CHECK(contains(run.err, "field.crt:3:"));
+  CHECK(contains(run.err, "5 pixels together"));
+}
+
 TEST_CASE_FIXTURE(Fixture,
                   "a wrong command line ends with 2, says what is wrong and names the help") {
   const Arguments wrong_lines[] = {
@@ -68,12 +81,16 @@ TEST_CASE_FIXTURE(Fixture,
       {"render", "ball.crt", "--set", "n"},
       {"render", "ball.crt", "--time", "noon"},
       {"render", "ball.crt", "--frames", "5-2"},
+      {"render", "ball.crt", "--frames", "2147483647-2147483647"},
+      {"render", "ball.crt", "--frames", "0-2147483646"},
+      {"render", "ball.crt", "--frames", "1-1000001"},
       {"render", "ball.crt", "--frames", "1-2", "--time", "3"},
       {"render", "ball.crt", "--region", "0,0,8"},
       {"render", "ball.crt", "--region", "0,0,8,8,8"},
       {"render", "ball.crt", "--threads", "-1"},
       {"render", "ball.crt", "--resources", "nowhere"},
       {"render", "ball.crt", "--diagnostics", "xml"},
+      {"render", "ball.crt", "--max-image-pixels", "many"},
       {"check"},
   };
   for (const Arguments& line : wrong_lines) {
@@ -110,6 +127,44 @@ TEST_CASE_FIXTURE(Fixture, "a picture never overwrites its own script") {
   folder.write("scene.png", ball_script);
   CHECK(run_crt(folder, {"render", "scene.png"}).exit_code == usage_error);
   CHECK(folder.read("scene.png") == ball_script);
+}
+
+TEST_CASE_FIXTURE(Fixture, "a picture of a job that no format can hold ends with 2") {
+  REQUIRE(run_crt(folder, {"farm", "plan", "ball.crt", "-o", "job", "--tasks", "1"}).exit_code ==
+          0);
+  CHECK(run_crt(folder, {"farm", "merge", "job", "-o", "x.docx"}).exit_code == usage_error);
+  CHECK(run_crt(folder, {"farm", "status", "job", "--sheet", "x.docx"}).exit_code == usage_error);
+  REQUIRE(
+      run_crt(folder, {"farm", "plan", "ball.crt", "-o", "deep", "--aov", "depth", "--tasks", "1"})
+          .exit_code == 0);
+  CHECK(run_crt(folder, {"farm", "merge", "deep", "-o", "x.png"}).exit_code == usage_error);
+}
+
+TEST_CASE_FIXTURE(Fixture, "a file beyond what the command may write is an error of files") {
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  rlimit little = before;
+  little.rlim_cur = 2000;
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &little) == 0);
+  const Outcome run = run_crt(folder, {"render", "ball.crt", "--width", "300", "--height", "300"});
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &before) == 0);
+  CHECK(run.exit_code == file_error);
+  CHECK(contains(run.err, "ball.png"));
+  CHECK(folder.names() == Arguments{"ball.crt", "wrong.crt"});
+}
+
+TEST_CASE_FIXTURE(Fixture, "what a script prints cannot control a terminal") {
+  folder.write("print.crt", "print(\"a\\tb\", \"\x1b[31m\xc2\x9b\")\nScene { }\n");
+  const Outcome run = run_crt(folder, {"render", "print.crt", "--width", "4", "--height", "3"});
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.out, "a\tb \uFFFD[31m\uFFFD\n"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "what messages quote of a job cannot control a terminal") {
+  folder.write("manifest.json", "{\"crt_farm\": 1, \"script\": \"/\\u001b[31m\"}");
+  const Outcome run = run_crt(folder, {"farm", "status", "."});
+  CHECK(run.exit_code == file_error);
+  CHECK(contains(run.err, "\uFFFD[31m"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "a missing script ends with 3 and names it") {

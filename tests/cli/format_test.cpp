@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <string>
 
@@ -35,6 +36,16 @@ TEST_CASE("format reports syntax errors and leaves the script as it is") {
   CHECK(run.exit_code == 1);
   CHECK(run.err.find("a.crt:1:3: error") == 0);
   CHECK(folder.read("a.crt") == "x=(\n");
+}
+
+TEST_CASE("format waits for no pipe, and reads no input that is too long to the end") {
+  const TemporaryFolder folder;
+  REQUIRE(mkfifo((folder.path() / "pipe.crt").c_str(), 0600) == 0);
+  CHECK(run_crt(folder, {"format", "pipe.crt"}).exit_code == 3);
+  const std::string too_long((std::size_t{64} << 20) + 1, ' ');
+  const Outcome run = run_crt_in({.input = too_long}, folder, {"format", "-"});
+  CHECK(run.exit_code == 1);
+  CHECK(run.err.find("too long") != std::string::npos);
 }
 
 TEST_CASE("format ends with 3 for what it cannot read") {

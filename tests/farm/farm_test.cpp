@@ -1,5 +1,6 @@
 // The pictures of a job have the bytes of one render, however it is split and worked on.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <crt/farm.hpp>
 #include <crt/file.hpp>
@@ -251,6 +252,46 @@ TEST_CASE("the status and the contact sheet show what is done") {
   CHECK(sheet.width() == 52);
   CHECK(sheet.at(1, 1).a == 1);
   CHECK(sheet.at(51, 1).a == 0);
+}
+
+TEST_CASE("pipes and links in place of parts and logs stop nobody, and lead nowhere") {
+  const Place place;
+  const FarmPlan plan = plan_farm(place.script, place.job, {.tasks = 3});
+  REQUIRE(plan.tasks == 3);
+  const auto part = [&](int task) {
+    return place.job / "parts" / ("00000" + std::to_string(task) + ".part");
+  };
+  const std::filesystem::path outside = place.folder / "outside";
+  write_file(outside, "mine");
+  REQUIRE(mkfifo(part(0).c_str(), 0600) == 0);
+  REQUIRE(mkfifo((place.job / "log/000000.txt").c_str(), 0600) == 0);
+  REQUIRE(mkfifo((place.job / "log/000001.txt").c_str(), 0600) == 0);
+  std::filesystem::create_symlink(outside, part(2));
+  for (const FarmTask& task : farm_status(place.job).tasks)
+    CHECK(task.state == FarmTaskState::waiting);
+  const FarmMerge merged = merge_farm(place.job);
+  CHECK(merged.missing == std::vector<int>{1});
+  CHECK(merged.refused.size() == 2);
+  CHECK_THROWS_AS(work_farm(place.job, 0), Error);
+  CHECK(work_farm(place.job, 1));
+  CHECK_THROWS_AS(work_farm(place.job, 2), Error);
+  CHECK(content_of(outside) == "mine");
+  CHECK(farm_status(place.job).tasks[1].state == FarmTaskState::done);
+  std::filesystem::remove(part(0));
+  std::filesystem::remove(part(2));
+  CHECK(work_farm(place.job, 0));
+  CHECK(work_farm(place.job, 2));
+  REQUIRE(mkfifo((place.job / "scene.png").c_str(), 0600) == 0);
+  CHECK_THROWS_AS(merge_farm(place.job), Error);
+}
+
+TEST_CASE("a log shows no control characters") {
+  const Place place;
+  plan_farm(place.script, place.job, {.tasks = 1});
+  write_file(place.job / "log/000000.txt", "\x1b[31mhost:1 0.5 0\n");
+  const FarmTask task = farm_status(place.job).tasks[0];
+  CHECK(task.state == FarmTaskState::running);
+  CHECK(task.worker == "\uFFFD[31mhost:1");
 }
 
 TEST_CASE("nothing is planned where something is, and no task that is not there") {

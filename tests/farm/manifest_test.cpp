@@ -39,11 +39,13 @@ bool is_refused(const std::string& text) {
 TEST_CASE("a manifest is read as it was written") {
   Manifest manifest = small_manifest();
   manifest.seed = ~std::uint64_t{0};
+  manifest.max_image_pixels = 12;
   manifest.variables = {{"n", "2 + 2"}};
   manifest.aovs = {.depth = true, .error = true};
   const Manifest read = parse_manifest(to_text(manifest));
   CHECK(to_text(read) == to_text(manifest));
   CHECK(read.seed == manifest.seed);
+  CHECK(read.max_image_pixels == 12);
   CHECK(read.aovs == manifest.aovs);
 }
 

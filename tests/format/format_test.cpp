@@ -165,6 +165,16 @@ TEST_CASE("comments keep their text, their line and their column") {
   CHECK(formatted("if (a) {\n-- last\n}\n") == "if (a) {\n    -- last\n}\n");
 }
 
+TEST_CASE("two hundred thousand comments in a row take no longer than as many lines of code") {
+  std::string text = "if (a) {\n";
+  std::string expected = text;
+  for (int i = 0; i < 200'000; ++i) {
+    text += "--\n";
+    expected += "    --\n";
+  }
+  CHECK(formatted(text + "}\n") == expected + "}\n");
+}
+
 TEST_CASE("line ends stay what they are, and the last line has one") {
   CHECK(formatted("a=1\r\nb=2") == "a = 1\r\nb = 2\r\n");
   CHECK(formatted("").empty());

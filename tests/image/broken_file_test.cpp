@@ -1,5 +1,6 @@
 // These tests read files that are missing, broken, cut short or made to harm.
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <random>
@@ -7,7 +8,7 @@
 #include <vector>
 
 #include "crt/error.hpp"
-#include "crt/image.hpp"
+#include "crt/image_limits.hpp"
 #include "picture_files.hpp"
 
 using namespace crt;
@@ -187,6 +188,60 @@ TEST_CASE("a tall claim with few bytes behind it is an error soon") {
   // 2^27 pixels are legal, but the data for them is missing.
   CHECK_FALSE(decode_error(png_by_hand(16384, 8192, 8, 2, std::string(100, '\0'))).empty());
   CHECK_FALSE(decode_error(to_bytes("P6 1024 131072 255\nxyz")).empty());
+}
+
+TEST_CASE("a picture of more pixels than the caller allows is refused by its header") {
+  const auto refusal = [](const Bytes& content, std::uint64_t most_pixels) -> std::string {
+    try {
+      decode_image(content, "a picture", most_pixels);
+      return {};
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::limit);
+      return error.what();
+    }
+  };
+  const TemporaryDirectory directory;
+  for (const auto& [name, content] : sound_files()) {
+    CAPTURE(name);
+    const bool is_pixel = name == "a.webp";
+    if (!is_pixel) CHECK(contains(refusal(content, 2799), "40 x 70 pixels; the limit is 2799"));
+    CHECK(refusal(content, is_pixel ? 1 : 2800).empty());
+  }
+  // There is next to nothing to decode.
+  CHECK(contains(refusal(png_by_hand(16384, 8192, 8, 2, std::string(100, '\0')), 1'000'000),
+                 "16384 x 8192 pixels; the limit is 1000000"));
+  using namespace std::string_view_literals;
+  const std::string_view lossy =
+      "RIFF\x1e\0\0\0WEBPVP8 \x12\0\0\0\0\0\0\x9d\x01\x2a\x10\x27\x20\x4e\0\0\0\0\0\0\0\0"sv;
+  CHECK(contains(refusal(to_bytes(lossy), 1'000'000), "10000 x 3616 pixels"));
+  const std::string_view extended =
+      "RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\0\0\0\0\x0f\x27\0\x0f\x27\0\0\0\0\0"sv;
+  CHECK(contains(refusal(to_bytes(extended), 1'000'000), "10000 x 10000 pixels"));
+}
+
+TEST_CASE("a progressive JPEG that claims 4 gigapixels is refused before its scans are read") {
+  const TemporaryDirectory directory;
+  smooth_picture(40, 70).write(directory / "a.jpg");
+  std::string text = file_text(directory / "a.jpg");
+  const std::size_t frame = text.find("\xff\xc0");
+  REQUIRE(frame != std::string::npos);
+  text[frame + 1] = '\xc2';
+  text.replace(frame + 5, 4, "\xff\xdc\xff\xdc");
+  CHECK(contains(decode_error(to_bytes(text)), "65500 x 65500 pixels; the limit is"));
+}
+
+TEST_CASE("pictures may take a quarter of the memory that the process may have") {
+  CHECK(affordable_image_pixels() > 0);
+  CHECK(affordable_image_pixels() <= most_image_pixels);
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
+  if (before.rlim_cur != RLIM_INFINITY || affordable_image_pixels() < most_image_pixels) return;
+  rlimit less = before;
+  less.rlim_cur = rlim_t{4} << 30;
+  REQUIRE(setrlimit(RLIMIT_AS, &less) == 0);
+  const std::uint64_t pixels = affordable_image_pixels();
+  REQUIRE(setrlimit(RLIMIT_AS, &before) == 0);
+  CHECK(pixels == std::uint64_t{1} << 26);
 }
 
 TEST_CASE("damaged files of every format are read or refused, and nothing worse") {

@@ -37,8 +37,8 @@ bool ends_in_limit(const std::string& text, const ScriptOptions& options,
 /// Runs a function on a thread with a stack of a given size.
 template <class Function>
 void on_small_stack(std::size_t bytes, Function function) {
-#ifdef __SANITIZE_THREAD__
-  bytes *= 8;  // what ThreadSanitizer adds to every frame is not ours
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+  bytes *= 8;  // what a sanitizer adds to every frame is not ours
 #endif
   pthread_attr_t attributes;
   REQUIRE(pthread_attr_init(&attributes) == 0);
@@ -143,6 +143,69 @@ TEST_CASE("at all limits a script needs no more than about a megabyte of stack")
     CHECK(run_statements(deep_text).ok());
     CHECK(run_statements(deep_expression).ok());
   });
+}
+
+TEST_CASE("a thread with 256 kB of stack runs scripts, and ends those that nest too deeply") {
+  constexpr std::size_t stack_bytes = 256 << 10;
+  const std::string nested_calls = "f = Macro (n) { max(0, min(1, abs(f(n + 1)))) + 1 }\nf(0)";
+  const std::string in_objects =
+      "f = Macro (n) { Sphere { center -> vec3(0, 0, f(n + 1)) radius -> 1 } }\nf(0)";
+  const std::string in_modifiers = ball +
+                                   "f = Macro (n) { ball <translate vec3(0, 0, f(n + 1))> }\n"
+                                   "x = f(0)";
+  const std::string in_loops =
+      "f = Macro (n) { for (i in [1]) { while (true) { if (true) { x = [f(n + 1)] } } } }\nf(0)";
+  const std::string in_brackets =
+      "f = Macro (n) { x = " + repeated("[", 90) + "f(n + 1)" + repeated("]", 90) + " }\nf(0)";
+  on_small_stack(stack_bytes, [&] {
+    for (const std::string& endless :
+         {nested_calls, in_objects, in_modifiers, in_loops, in_brackets}) {
+      CAPTURE(endless);
+      CHECK(run_statements(endless, with({.call_depth = 1000})).failed_with(ErrorCode::limit));
+    }
+    CHECK(run_statements("f = Macro (n) { if (n > 0) { f(n - 1) } }\nf(30)").ok());
+    CHECK(run_statements("x = " + repeated("- ", 190) + "1").ok());
+    CHECK(run_statements("x = " + repeated("(", 190) + "1" + repeated(")", 190)).ok());
+    CHECK(run_statements("x = " + repeated("[", 95) + "1" + repeated("]", 95) +
+                         "\nprint(x, x == x)\ny = str(x)")
+              .ok());
+    CHECK(run_statements(repeated("if (true) { ", 190) + "x = 1" + repeated("}", 190)).ok());
+    CHECK_FALSE(run_statements("x = " + repeated("(", 300) + "1" + repeated(")", 300)).ok());
+    CHECK_FALSE(run_statements("x = " + repeated("(", 190) + "y" + repeated(")", 190)).ok());
+  });
+}
+
+TEST_CASE("a list that is made item by item takes steps in proportion to its length") {
+  const ScriptOptions options = with({.steps = 3'000'000});
+  const std::string loop = "p = []\nfor (i in range(100000)) { ";
+  CHECK(run_statements(loop + "p = p + [[i, i]] }\nprint(len(p), p[99999])", options).printed ==
+        std::vector<std::string>{"100000 [99999, 99999]"});
+  CHECK(run_statements(loop + "p += [[i, i]] }\nprint(len(p))", options).printed ==
+        std::vector<std::string>{"100000"});
+  // What shares the list, or is made in another way, is paid for.
+  CHECK(ends_in_limit(loop + "q = p\n p = p + [[i, i]] }", options, "steps"));
+  CHECK(ends_in_limit(loop + "p = [[i, i]] + p }", options, "steps"));
+}
+
+TEST_CASE("a list that grows in place changes no other") {
+  const auto prints = [](const std::string& text) { return run_statements(text).printed; };
+  using Lines = std::vector<std::string>;
+  CHECK(prints("p = [1]\nq = p\np = p + [2]\nprint(p, q)") == Lines{"[1, 2] [1]"});
+  CHECK(prints("p = [1]\np = p + p\np = p + p\nprint(p)") == Lines{"[1, 1, 1, 1]"});
+  CHECK(prints("p = [1]\np = p + [p]\nprint(p)") == Lines{"[1, [1]]"});
+  CHECK(prints("p = [1]\nfor (x in p) { p = p + [x, 2] }\nprint(p)") == Lines{"[1, 1, 2]"});
+  CHECK(prints("p = [1]\nm = Macro () { p = p + [2]\n p }\nx = m()\nprint(p, x)").empty());
+  CHECK(prints("p = [1]\nm = Macro () { p = p + [2]\n return p }\nx = m()\nprint(p, x)") ==
+        Lines{"[1] [1, 2]"});
+  CHECK(prints("p = [1]\nq = (p = p + [2])\np = p + [3]\nprint(p, q)") ==
+        Lines{"[1, 2, 3] [1, 2]"});
+  CHECK(prints("p = [1]\np = p + (p = p + [2])\nprint(p)") == Lines{"[1, 1, 2]"});
+  CHECK(prints("p = [[1]]\nq = p[0]\np = p + [q]\nq = q + [2]\nprint(p, q)") ==
+        Lines{"[[1], [1]] [1, 2]"});
+  CHECK_FALSE(run_statements("p = [1]\np = p + 1").ok());
+  CHECK(ends_in_limit("p = [1]\np = p + [2, 3]", with({.list_length = 2}), "more than 2 items"));
+  CHECK(ends_in_limit("p = []\nwhile (true) { p = p + [\"x\" * 1000] }",
+                      with({.memory_bytes = 1'000'000}), "need more than 1000000 bytes"));
 }
 
 TEST_CASE("long chains are worked off and freed without deep recursion") {

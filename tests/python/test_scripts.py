@@ -148,6 +148,12 @@ class Scripts(unittest.TestCase):
         with self.assertRaises(crt.ScriptError) as caught:
             crt.Scene.from_script("while (true) { a = 1 }\nScene {}", max_steps=1000)
         self.assertEqual(caught.exception.status, crt.Status.LIMIT)
+        field = """row = [0, 0.5, 1]\nScene { HeightField { heights -> [row, row]
+            cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, 1) } }"""
+        crt.Scene.from_script(field, max_image_pixels=6)
+        with self.assertRaises(crt.ScriptError) as caught:
+            crt.Scene.from_script(field, max_image_pixels=5)
+        self.assertEqual(caught.exception.status, crt.Status.LIMIT)
         with self.assertRaisesRegex(TypeError, "no argument 'max_stepz'; limits are max_steps"):
             crt.Scene.from_script("Scene {}", max_stepz=1)
 

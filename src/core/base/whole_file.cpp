@@ -6,13 +6,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "core/base/memory_limit.hpp"
 #include "core/base/output_place.hpp"
 #include "crt/error.hpp"
 #include "crt/file.hpp"
@@ -48,34 +51,42 @@ class Descriptor {
   int value_;
 };
 
-/// Keeps SIGPIPE, which would end the process, from the calling thread as long as it lives.
-class NoPipeSignal {
+/// Keeps two signals that writing may raise, and that would end the process, from the calling
+/// thread as long as it lives. These are SIGPIPE, of a pipe without a reader, and SIGXFSZ, of a
+/// file that grows beyond what the process may write. Writing then fails.
+class NoWriteSignals {
  public:
-  NoPipeSignal() {
-    sigemptyset(&pipe_);
-    sigaddset(&pipe_, SIGPIPE);
-    was_pending_ = is_pending();
-    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  NoWriteSignals() {
+    sigemptyset(&raised_);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) {
+      if (!is_pending(signal)) sigaddset(&raised_, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &raised_, &before_);
   }
-  NoPipeSignal(const NoPipeSignal&) = delete;
-  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
-  ~NoPipeSignal() {
-    if (!was_pending_ && is_pending()) {  // our own writing has raised it
-      int signal = 0;
-      sigwait(&pipe_, &signal);
+  NoWriteSignals(const NoWriteSignals&) = delete;
+  NoWriteSignals& operator=(const NoWriteSignals&) = delete;
+  ~NoWriteSignals() {
+    for (const int signal : {SIGPIPE, SIGXFSZ}) {
+      // Our own writing has raised it.
+      if (sigismember(&raised_, signal) == 1 && is_pending(signal)) take(signal);
     }
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
 
  private:
-  static bool is_pending() {
+  static bool is_pending(int signal) {
     sigset_t pending;
-    return sigpending(&pending) == 0 && sigismember(&pending, SIGPIPE) == 1;
+    return sigpending(&pending) == 0 && sigismember(&pending, signal) == 1;
+  }
+  static void take(int signal) {
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, signal);
+    sigwait(&one, &signal);
   }
 
-  sigset_t pipe_{};
+  sigset_t raised_{};  ///< those that were not pending before
   sigset_t before_{};
-  bool was_pending_ = false;
 };
 
 /// Reads some bytes and returns how many there were, 0 at the end.
@@ -85,6 +96,36 @@ std::size_t read_some(const Descriptor& file, std::span<std::byte> bytes, const 
     if (count >= 0) return static_cast<std::size_t>(count);
     if (errno != EINTR) fail_to_read(path, system_message(errno));
   }
+}
+
+/// A RegularFile is open, and was so long when it was opened.
+struct RegularFile {
+  Descriptor descriptor;
+  std::size_t size = 0;
+};
+
+RegularFile open_regular(const fs::path& path) {
+  // With O_NONBLOCK a pipe without a writer does not hang us. For a regular file it means nothing.
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.valid()) fail_to_read(path, system_message(errno));
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0) fail_to_read(path, system_message(errno));
+  if (S_ISDIR(status.st_mode)) fail_to_read(path, "it is a directory");
+  if (!S_ISREG(status.st_mode)) fail_to_read(path, "it is not a regular file");
+  return {std::move(file), static_cast<std::size_t>(status.st_size)};
+}
+
+/// Returns the first `size` bytes, or what there is.
+std::vector<std::byte> read_start(const Descriptor& file, std::size_t size, const fs::path& path) {
+  std::vector<std::byte> content(size);
+  std::size_t filled = 0;
+  while (filled < size) {
+    const std::size_t count = read_some(file, std::span(content).subspan(filled), path);
+    if (count == 0) break;
+    filled += count;
+  }
+  content.resize(filled);
+  return content;
 }
 
 /// Waits until a file that was opened with O_NONBLOCK takes more.
@@ -110,7 +151,7 @@ void write_all(const Descriptor& file, std::span<const std::byte> content, const
 /// Writes to the open file directly, without a temporary file.
 void write_straight(Descriptor file, const fs::path& path, const FilePieces& produce) {
   if (!file.valid()) fail_to_write(path, system_message(errno));
-  const NoPipeSignal no_signal;
+  const NoWriteSignals no_signals;
   produce([&](std::span<const std::byte> piece) { write_all(file, piece, path); });
   if (!file.close()) fail_to_write(path, system_message(errno));
 }
@@ -214,24 +255,17 @@ void check_protection(const OutputPlace& place) {
 }  // namespace
 
 std::vector<std::byte> read_whole_file(const fs::path& path, std::size_t max_bytes) {
-  // With O_NONBLOCK a pipe without a writer does not hang us. For a regular file it means nothing.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!file.valid()) fail_to_read(path, system_message(errno));
-  struct stat status {};
-  if (::fstat(file.get(), &status) != 0) fail_to_read(path, system_message(errno));
-  if (S_ISDIR(status.st_mode)) fail_to_read(path, "it is a directory");
-  if (!S_ISREG(status.st_mode)) fail_to_read(path, "it is not a regular file");
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size > max_bytes) fail_to_read(path, fmt::format("it is longer than {} bytes", max_bytes));
-  std::vector<std::byte> content(size);
-  std::size_t filled = 0;
-  while (filled < size) {
-    const std::size_t count = read_some(file, std::span(content).subspan(filled), path);
-    if (count == 0) break;
-    filled += count;
-  }
-  content.resize(filled);
-  return content;
+  const auto [file, size] = open_regular(path);
+  constexpr std::size_t few_bytes = std::size_t{1} << 26;  // for which memory is not looked at
+  const std::uint64_t most =
+      size <= few_bytes ? max_bytes : std::min<std::uint64_t>(max_bytes, memory_limit() / 2);
+  if (size > most) fail_to_read(path, fmt::format("it is longer than {} bytes", most));
+  return read_start(file, size, path);
+}
+
+std::vector<std::byte> read_file_start(const fs::path& path, std::size_t max_bytes) {
+  const auto [file, size] = open_regular(path);
+  return read_start(file, std::min(size, max_bytes), path);
 }
 
 void write_whole_file(const fs::path& path, std::span<const std::byte> content) {
@@ -254,6 +288,7 @@ void write_whole_file(const fs::path& path, const FilePieces& produce) {
   }
   TemporaryFile file(place);
   if (file.is_made()) {
+    const NoWriteSignals no_signals;
     produce([&](std::span<const std::byte> piece) { file.write(piece); });
     file.move_to_place();
     return;

@@ -9,9 +9,13 @@
 
 namespace crt::core {
 
-/// Returns the content of a regular file. Throws Error (io) if there is none or if it is longer
-/// than `max_bytes`.
+/// Returns the content of a regular file. Throws Error (io) if there is none, and if it is longer
+/// than `max_bytes` or than half of the memory that the process may have.
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path, std::size_t max_bytes);
+
+/// Returns the beginning of a regular file, of at most so many bytes, otherwise as
+/// read_whole_file().
+std::vector<std::byte> read_file_start(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Makes `path` hold `content`, as crt/file.hpp describes. Throws Error (io).
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> content);

@@ -22,16 +22,26 @@ class RefusedFile : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A TooLarge says that a picture has more pixels than the caller allows.
+class TooLarge : public RefusedFile {
+ public:
+  using RefusedFile::RefusedFile;
+};
+
+class SizeLimit;
+
 /// Returns the file of the given format (see format_of_content) without all that its pixels do not
-/// need.
-FileBytes essential_bytes(std::string_view format, FileBytes content);
+/// need. Refuses a picture that is too large where a library might take memory for it before it is
+/// asked for pixels.
+FileBytes essential_bytes(std::string_view format, FileBytes content, const SizeLimit& limit);
 
 // These are the formats that something is left out of, or refused of. Each function takes a file
 // that begins with the signature of its format.
-FileBytes essential_png(FileView content);
-FileBytes essential_jpeg(FileView content);
+FileBytes essential_png(FileView content, const SizeLimit& limit);
+FileBytes essential_jpeg(FileView content, const SizeLimit& limit);
 FileBytes essential_tiff(FileBytes content);
-void check_exr(FileView content);
+void check_exr(FileView content, const SizeLimit& limit);
 void check_bmp(FileView content);
+void check_webp(FileView content, const SizeLimit& limit);
 
 }  // namespace crt::core

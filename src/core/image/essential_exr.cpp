@@ -62,7 +62,7 @@ std::int64_t signed_number(FileView value, std::size_t index) {
 /// Returns whether a picture of this size may be in a file of so many bytes.
 bool is_plausible(std::int64_t width, std::int64_t height, std::size_t file_size) {
   if (width < 1 || height < 1) return false;
-  if (static_cast<std::uint64_t>(width) > max_image_pixels / static_cast<std::uint64_t>(height))
+  if (static_cast<std::uint64_t>(width) > most_image_pixels / static_cast<std::uint64_t>(height))
     return false;
   // Each block of rows has an offset of 8 bytes and at least as much of a header.
   constexpr std::uint64_t most_rows_a_block = 256;
@@ -70,7 +70,7 @@ bool is_plausible(std::int64_t width, std::int64_t height, std::size_t file_size
   return static_cast<std::uint64_t>(height) / most_rows_a_block * least_bytes_a_block <= file_size;
 }
 
-void check_attribute(const Attribute& attribute, std::size_t file_size) {
+void check_attribute(const Attribute& attribute, std::size_t file_size, const SizeLimit& limit) {
   constexpr std::size_t window_size = 16;  // the corners: least x and y, greatest x and y
   constexpr std::size_t tiles_size = 9;    // width, height, mode
   if (attribute.name == "dataWindow" && attribute.value.size() == window_size) {
@@ -80,6 +80,7 @@ void check_attribute(const Attribute& attribute, std::size_t file_size) {
         signed_number(attribute.value, 3) - signed_number(attribute.value, 1) + 1;
     if (!is_plausible(width, height, file_size))
       throw RefusedFile("its header gives it an impossible size");
+    limit.check(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
   }
   if (attribute.name == "tiles" && attribute.value.size() == tiles_size) {
     const std::int64_t width = signed_number(attribute.value, 0);
@@ -92,7 +93,7 @@ void check_attribute(const Attribute& attribute, std::size_t file_size) {
 
 }  // namespace
 
-void check_exr(FileView content) {
+void check_exr(FileView content, const SizeLimit& limit) {
   Reader reader(content);
   reader.number();  // the signature
   constexpr std::uint64_t several_parts = 0x1000;
@@ -102,7 +103,7 @@ void check_exr(FileView content) {
     empty_header = true;
     while (const std::optional<Attribute> attribute = reader.attribute()) {
       empty_header = false;
-      check_attribute(*attribute, content.size());
+      check_attribute(*attribute, content.size(), limit);
     }
   } while (has_parts && !empty_header);
 }

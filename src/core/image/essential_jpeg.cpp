@@ -6,6 +6,7 @@
 
 #include "core/image/byte_order.hpp"
 #include "core/image/essential_bytes.hpp"
+#include "core/image/image_limits.hpp"
 
 namespace crt::core {
 
@@ -33,6 +34,15 @@ bool is_metadata(unsigned marker) {
   return marker == comment || (application && marker != jfif && marker != adobe);
 }
 
+/// Returns whether a segment is the header of a frame, which has its size.
+bool is_frame_header(unsigned marker) {
+  constexpr unsigned huffman_tables = 0xc4;
+  constexpr unsigned extension = 0xc8;
+  constexpr unsigned arithmetic_conditions = 0xcc;
+  return marker >= 0xc0 && marker <= 0xcf && marker != huffman_tables && marker != extension &&
+         marker != arithmetic_conditions;
+}
+
 /// Returns how long the coded data is that follows the header of a scan. It ends at a marker that
 /// does not belong to it: 0xff 0x00 stands for the number 0xff, and restart markers are part of the
 /// data.
@@ -46,7 +56,7 @@ std::size_t scan_length(FileView data) {
 
 }  // namespace
 
-FileBytes essential_jpeg(FileView content) {
+FileBytes essential_jpeg(FileView content, const SizeLimit& limit) {
   // A file of many scans takes long to read for its size. Encoders make about ten.
   constexpr int most_scans = 100;
   int scans = 0;
@@ -72,6 +82,11 @@ FileBytes essential_jpeg(FileView content) {
     const std::size_t length = big_endian(rest.subspan(2, 2));  // counts itself, not the marker
     if (length < 2) throw RefusedFile("it is damaged: a segment has no length");
     if (length + 2 > rest.size()) break;
+    constexpr std::size_t height_at = 5;  // behind marker, length and precision; the width follows
+    if (is_frame_header(marker) && length + 2 >= height_at + 4) {
+      limit.check(big_endian(rest.subspan(height_at + 2, 2)),
+                  big_endian(rest.subspan(height_at, 2)));
+    }
     if (!is_metadata(marker)) keep(rest.first(length + 2));
     rest = rest.subspan(length + 2);
     if (marker == start_of_scan) {

@@ -11,6 +11,7 @@
 
 #include "core/image/byte_order.hpp"
 #include "core/image/essential_bytes.hpp"
+#include "core/image/image_limits.hpp"
 
 namespace crt::core {
 
@@ -39,7 +40,7 @@ bool is_needed(const std::string& name) {
 
 }  // namespace
 
-FileBytes essential_png(FileView content) {
+FileBytes essential_png(FileView content, const SizeLimit& limit) {
   constexpr std::size_t signature_size = 8;
   constexpr std::size_t length_size = 4;
   constexpr std::size_t name_size = 4;
@@ -58,6 +59,10 @@ FileBytes essential_png(FileView content) {
     const std::string name(reinterpret_cast<const char*>(summed.data()), name_size);
     if (checksum(summed) != big_endian(chunk.last(4))) {
       throw RefusedFile(fmt::format("it is damaged: the checksum of its chunk {} is wrong", name));
+    }
+    const FileView data = summed.subspan(name_size);
+    if (name == "IHDR" && data.size() >= 8) {
+      limit.check(big_endian(data.first(4)), big_endian(data.subspan(4, 4)));
     }
     if (is_needed(name)) {
       result.insert(result.end(), chunk.begin(), chunk.end());

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <new>
 
-#include "core/image/image_limits.hpp"
 #include "core/image/pixel_conversion.hpp"
 #include "crt/error.hpp"
+#include "crt/image_limits.hpp"
 
 namespace crt {
 
@@ -40,10 +40,10 @@ Image::Image(int width, int height) : width_(width), height_(height) {
   if (height < 1)
     throw Error(ErrorCode::invalid_argument, "a picture's height must be at least 1", "height");
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (count > core::max_image_pixels) {
+  if (count > most_image_pixels) {
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("a picture of {} x {} pixels is larger than the {} that are possible",
-                            width, height, core::max_image_pixels),
+                            width, height, most_image_pixels),
                 "width");
   }
   try {

@@ -61,39 +61,78 @@ struct Failure {
   }
 };
 
-/// Returns the part of the file that its pixels need.
-FileBytes checked(const char* format, FileBytes content, const std::string& name) {
+/// Calls work(), and turns what it refuses of a file into an Error.
+template <class Work>
+auto unless_refused(const std::string& name, const Work& work) {
   try {
-    return essential_bytes(format, std::move(content));
+    return work();
+  } catch (const TooLarge& refusal) {
+    fail(ErrorCode::limit, "read", name, refusal.what());
   } catch (const RefusedFile& refusal) {
     fail(ErrorCode::io, "read", name, refusal.what());
   }
 }
 
-Image decode_content(FileBytes content, const std::string& name) {
-  const char* const format = format_of_content(content);
-  if (format == nullptr) {
-    fail(ErrorCode::io, "read", name,
-         content.empty() ? "it is empty"
-                         : "it is not a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM or WebP file");
+/// A Decoding is a picture that the module decodes.
+struct Decoding {
+  const SizeLimit& limit;
+  std::optional<Image> image{};
+  int refused_width = 0;  ///< the size of a picture that is too large
+  int refused_height = 0;
+
+  static bool accept(void* context, int width, int height) {
+    auto& decoding = *static_cast<Decoding*>(context);
+    if (decoding.limit.allows(static_cast<std::uint64_t>(width),
+                              static_cast<std::uint64_t>(height))) {
+      return true;
+    }
+    decoding.refused_width = width;
+    decoding.refused_height = height;
+    return false;
   }
-  const FileBytes essential = checked(format, std::move(content), name);
-  std::optional<Image> image;
-  const ImageFilesPicture picture = {
-      &image, [](void* context, int width, int height, bool integer) -> float* {
-        try {
-          auto& result = static_cast<std::optional<Image>*>(context)->emplace(width, height);
-          result.set_display_encoded(integer);
-          return result.pixels().data();
-        } catch (const std::exception&) {
-          return nullptr;
-        }
-      }};
+
+  static float* allocate(void* context, int width, int height, bool integer) {
+    try {
+      auto& result = static_cast<Decoding*>(context)->image.emplace(width, height);
+      result.set_display_encoded(integer);
+      return result.pixels().data();
+    } catch (const std::exception&) {
+      return nullptr;
+    }
+  }
+
+  void throw_if_refused(const std::string& name) const {
+    if (refused_width == 0) return;
+    unless_refused(name, [&] {
+      limit.check(static_cast<std::uint64_t>(refused_width),
+                  static_cast<std::uint64_t>(refused_height));
+    });
+  }
+};
+
+/// Returns OpenImageIO's name of the format of a file that begins so.
+const char* format_of(FileView content, const std::string& name) {
+  const char* const format = format_of_content(content);
+  if (format != nullptr) return format;
+  fail(ErrorCode::io, "read", name,
+       content.empty() ? "it is empty"
+                       : "it is not a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM or WebP file");
+}
+
+Image decode_content(FileBytes content, const std::string& name, const SizeLimit& limit) {
+  const char* const format = format_of(content, name);
+  const FileBytes essential =
+      unless_refused(name, [&] { return essential_bytes(format, std::move(content), limit); });
+  Decoding decoding{.limit = limit};
+  const ImageFilesPicture picture = {&decoding, Decoding::accept, Decoding::allocate};
   const ImageFilesContent file = {format, reinterpret_cast<const unsigned char*>(essential.data()),
-                                  essential.size(), max_image_pixels};
+                                  essential.size()};
   Failure failure;
   const ImageFilesError error = failure.sink();
-  failure.throw_if(image_files().decode(&file, &picture, &error), "read", name);
+  const ImageFilesStatus status = image_files().decode(&file, &picture, &error);
+  decoding.throw_if_refused(name);
+  failure.throw_if(status, "read", name);
+  std::optional<Image>& image = decoding.image;
   if (!image->display_encoded()) {  // else the file has integers
     NotFiniteValues values = replace_not_finite(*image);
     if (values.pixels > 0) {
@@ -206,20 +245,32 @@ std::vector<std::byte> file_bytes(const Image& image, const std::string& file_na
 
 }  // namespace
 
-Image Image::decode(std::span<const std::byte> content, const std::string& name) {
+Image decode_image(std::span<const std::byte> content, const std::string& name,
+                   std::uint64_t most_pixels) {
   try {
-    return decode_content(FileBytes(content.begin(), content.end()), name);
+    return decode_content(FileBytes(content.begin(), content.end()), name, SizeLimit(most_pixels));
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "read", name, "out of memory");
   }
 }
 
-Image Image::read(const std::filesystem::path& path) {
+Image read_image(const std::filesystem::path& path, std::uint64_t most_pixels) {
+  const SizeLimit limit(most_pixels);
+  constexpr std::size_t longest_signature = 16;
   try {
-    return decode_content(read_whole_file(path, max_image_file_bytes), path.string());
+    format_of(read_file_start(path, longest_signature), path.string());
+    return decode_content(read_whole_file(path, limit.most_file_bytes()), path.string(), limit);
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "read", path.string(), "out of memory");
   }
+}
+
+Image Image::decode(std::span<const std::byte> content, const std::string& name) {
+  return decode_image(content, name);
+}
+
+Image Image::read(const std::filesystem::path& path) {
+  return read_image(path);
 }
 
 void Image::write(const std::filesystem::path& path, const WriteOptions& options) const {

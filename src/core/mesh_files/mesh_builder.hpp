@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -47,8 +49,10 @@ class CornerIndices {
 /// one.
 class MeshBuilder {
  public:
-  /// Files that the mesh file names are opened by `open`, if it is there.
-  explicit MeshBuilder(OpenMeshPart open = {}) : open_(std::move(open)) {}
+  /// Files that the mesh file names are opened by `open`, if it is there, and pictures by
+  /// `open_picture`, or else by `open`, too.
+  explicit MeshBuilder(OpenMeshPart open = {}, OpenMeshPicture open_picture = {})
+      : open_(std::move(open)), open_picture_(std::move(open_picture)) {}
 
   /// Adds a position with checked coordinates. It has the number of positions before it. Throws
   /// RefusedMesh if there are too many.
@@ -64,6 +68,9 @@ class MeshBuilder {
 
   /// Returns the content of a file that this one names. Throws Error if it cannot be had.
   std::vector<std::byte> open(const std::string& name) const;
+  /// Returns a picture that this file names. Throws Error if it cannot be had, and if all pictures
+  /// together are too large.
+  std::shared_ptr<const Image> picture(const std::string& name);
   /// Says in one line what of the file had to be left out.
   void warn(const std::string& message);
 
@@ -96,6 +103,8 @@ class MeshBuilder {
   std::uint32_t material_ = no_index;
   std::vector<std::string> warnings_;
   OpenMeshPart open_;
+  OpenMeshPicture open_picture_;
+  std::optional<std::uint64_t> pixels_left_;  ///< of pictures; known once there is one
 
   void add_triangle(const FaceCorners& face, std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void drop_flat();

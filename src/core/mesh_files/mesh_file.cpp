@@ -43,12 +43,12 @@ void read_as(MeshFormat format, std::string_view content, MeshBuilder& mesh) {
 }
 
 MeshFile decode(std::string_view content, const std::string& name, std::optional<MeshFormat> format,
-                const OpenMeshPart& open) {
+                const OpenMeshPart& open, const OpenMeshPicture& open_picture) {
   content = without_byte_order_mark(content);
   if (content.empty()) throw RefusedMesh("it is empty");
   if (!format) format = mesh_format(content, name);
   if (!format) throw RefusedMesh("it is no OBJ, PLY, STL, 3MF or OFF file");
-  MeshBuilder mesh(open);
+  MeshBuilder mesh(open, open_picture);
   read_as(*format, content, mesh);
   MeshFile file = mesh.finish();
   file.format = *format;
@@ -70,18 +70,20 @@ OpenMeshPart opener_in(const std::filesystem::path& directory) {
 }  // namespace
 
 MeshFile decode_mesh_file(std::span<const std::byte> content, const std::string& name,
-                          std::optional<MeshFormat> format, const OpenMeshPart& open) {
+                          std::optional<MeshFormat> format, const OpenMeshPart& open,
+                          const OpenMeshPicture& open_picture) {
   const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
   try {
-    return decode(text, name, format, open);
+    return decode(text, name, format, open, open_picture);
   } catch (const RefusedMesh& refusal) {
     throw Error(ErrorCode::io, fmt::format("cannot read '{}': {}", name, refusal.what()));
   }
 }
 
-MeshFile read_mesh_file(const std::filesystem::path& path, const OpenMeshPart& open) {
+MeshFile read_mesh_file(const std::filesystem::path& path, const OpenMeshPart& open,
+                        const OpenMeshPicture& open_picture) {
   return decode_mesh_file(read_whole_file(path, most_bytes), path.string(), {},
-                          open ? open : opener_in(path.parent_path()));
+                          open ? open : opener_in(path.parent_path()), open_picture);
 }
 
 Entity load_mesh(const MeshFile& file, const std::string& name, const MeshOptions& options) {

@@ -211,7 +211,7 @@ std::shared_ptr<const Image> MtlLibraries::picture(const std::string& name) {
     throw RefusedMesh(fmt::format("its materials have more than {} pictures", most_pictures));
   std::shared_ptr<const Image>& picture = pictures_[path];
   try {
-    picture = std::make_shared<const Image>(Image::decode(mesh_.open(name), name));
+    picture = mesh_.picture(name);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::io && error.code() != ErrorCode::unsupported) throw;
     mesh_.warn(error.what());

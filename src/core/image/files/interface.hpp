@@ -12,7 +12,7 @@
 namespace crt::core {
 
 /// This is the version of what follows. A module of another version is refused.
-inline constexpr int image_files_version = 3;
+inline constexpr int image_files_version = 4;
 
 /// An ImageFileText is a name and a text that go into a file beside the pixels. Both end in 0.
 struct ImageFileText {
@@ -36,6 +36,9 @@ struct ImageFilesError {
 /// An ImageFilesPicture takes a decoded picture.
 struct ImageFilesPicture {
   void* context;
+  /// This is called when the header was read, before anything is decoded. It returns whether a
+  /// picture of this size is wanted. If not, decoding fails without a message.
+  bool (*accept)(void* context, int width, int height);
   /// This is called once the size is known and the first rows were read. It returns room for 4 *
   /// width * height floats, or null. `integer` says whether the file has integers or floats.
   float* (*allocate)(void* context, int width, int height, bool integer);
@@ -52,7 +55,6 @@ struct ImageFilesContent {
   const char* format;  ///< OpenImageIO's name of the format
   const unsigned char* bytes;
   std::size_t count;
-  std::size_t max_pixels;
 };
 
 /// An ImageFileChannel has numbers beside the colours, one a pixel, as `floats` or as `integers`.

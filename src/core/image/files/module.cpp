@@ -23,6 +23,9 @@ struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A Refused ends the decoding of a picture that is not wanted.
+struct Refused {};
+
 /// Returns the beginning of OpenImageIO's message, which may be long, or `otherwise` if it has
 /// none.
 std::string reason(const std::string& message, const char* otherwise) {
@@ -39,6 +42,8 @@ ImageFilesStatus guarded(const ImageFilesError& error, const Work& work) noexcep
     return image_files_ok;
   } catch (const std::bad_alloc&) {
     return image_files_out_of_memory;
+  } catch (const Refused&) {
+    return image_files_failed;
   } catch (const Unsupported& failure) {
     error.report(error.context, failure.what());
     return image_files_unsupported;
@@ -91,23 +96,23 @@ void convert_pixel(const float* from, const ChannelUse& use, float* to) {
   to[3] = alpha;
 }
 
-/// Checks that what a header says is possible before anything is allocated for it.
-void check_size(const OIIO::ImageSpec& spec, std::size_t max_pixels) {
+/// Checks that what a header says is possible, and wanted, before anything is allocated for it.
+void check_size(const OIIO::ImageSpec& spec, const ImageFilesPicture& picture) {
   if (spec.deep) throw std::runtime_error("deep images have no single picture");
   if (spec.depth > 1) throw std::runtime_error("it is a volume, not a picture");
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
     throw std::runtime_error("it has no pixels");
-  const auto too_large = [&](int width, int height) {
-    return static_cast<std::size_t>(width) > max_pixels / static_cast<std::size_t>(height);
+  if (!picture.accept(picture.context, spec.width, spec.height)) throw Refused();
+  // A row of tiles, or one of pixels, is in memory at once with all its channels.
+  constexpr std::size_t most_bytes = std::size_t{1} << 31;
+  const auto is_too_much = [&](int width, int height) {
+    const std::size_t row = spec.pixel_bytes(true) * static_cast<std::size_t>(width);
+    return row > most_bytes / static_cast<std::size_t>(height);
   };
-  if (too_large(spec.width, spec.height)) {
-    throw std::runtime_error("its header says " + std::to_string(spec.width) + " x " +
-                             std::to_string(spec.height) + " pixels; the limit is " +
-                             std::to_string(max_pixels) + " altogether");
-  }
+  if (is_too_much(spec.width, 1)) throw std::runtime_error("it has too many channels");
   if (spec.tile_width == 0) return;
   if (spec.tile_width < 1 || spec.tile_height < 1 || spec.tile_depth > 1 ||
-      too_large(spec.tile_width, spec.tile_height)) {
+      is_too_much(spec.tile_width, spec.tile_height)) {
     throw std::runtime_error("its header gives its tiles an impossible size");
   }
 }
@@ -117,9 +122,14 @@ void check_size(const OIIO::ImageSpec& spec, std::size_t max_pixels) {
 void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
                  const ImageFilesPicture& picture) {
   constexpr int most_rows = 64;
-  constexpr int strip_pixels = 1 << 20;
+  constexpr std::size_t strip_bytes = std::size_t{1} << 24;
+  // A row takes so much as it is in the file, or as the floats of four channels.
+  const std::size_t row_bytes =
+      std::max(spec.pixel_bytes(true), 4 * sizeof(float)) * static_cast<std::size_t>(spec.width);
   const int strip =
-      spec.tile_width > 0 ? spec.tile_height : std::clamp(strip_pixels / spec.width, 1, most_rows);
+      spec.tile_width > 0
+          ? spec.tile_height
+          : static_cast<int>(std::clamp<std::size_t>(strip_bytes / row_bytes, 1, most_rows));
   const ChannelUse use = channel_use(spec);
   const auto width = static_cast<std::size_t>(spec.width);
   const auto channels = static_cast<std::size_t>(use.count);
@@ -168,7 +178,7 @@ ImageFilesStatus decode(const ImageFilesContent* content, const ImageFilesPictur
     if (!input->open(content->format, spec, wishes)) {
       throw std::runtime_error(reason(input->geterror(), "its header is broken"));
     }
-    check_size(spec, content->max_pixels);
+    check_size(spec, *picture);
     read_pixels(*input, spec, *picture);
   });
 }
