@@ -4,6 +4,7 @@
 #include <crt/draft.hpp>
 #include <crt/error.hpp>
 #include <crt/job.hpp>
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -139,6 +140,8 @@ void Renderer::work() {
       say(is_cancelled ? Phase::cancelled : Phase::failed, 0, is_cancelled ? "" : error.what());
     } catch (const std::bad_alloc&) {
       say(Phase::failed, 0, "there is not enough memory");
+    } catch (const std::exception& error) {  // of the system: there is no thread to be had
+      say(Phase::failed, 0, error.what());
     }
   }
 }

@@ -2,8 +2,10 @@
 
 #include <crt/error.hpp>
 #include <crt/version.hpp>
+#include <exception>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -12,10 +14,12 @@
 #include "studio/analysis_message.hpp"
 #include "studio/analyst.hpp"
 #include "studio/messages.hpp"
+#include "studio/typed_files.hpp"
 #include "studio/typed_keeper.hpp"
 #include "studio/view_client.hpp"
 #include "studio/view_messages.hpp"
 #include "text/first_script.hpp"
+#include "text/json.hpp"
 
 namespace crt::studio {
 
@@ -56,8 +60,14 @@ class StudioClient : public ViewClient {
         pages_(std::move(pages)),
         page_(make_token()),
         analyst_([this](const Analysis& analysis) { send_text(analysis_message(analysis)); },
-                 [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
-        keeper_(folder_) {
+                 [this](const Analysis& analysis) { send(diagnostics_message(analysis)); },
+                 [this](const std::string& why) {
+                   complain(why, {{"type", "text"}});
+                 }),
+        keeper_(folder_, [this](const std::string& script, const std::string& why) {
+          complain("what is typed into '" + script + "' is not kept beside it: " + why,
+                   {{"type", "text"}});
+        }) {
     on("open", [this](const json& message) { open(message); });
     on("text", [this](const json& message) { take_text(message); });
     on("view", [this](const json& message) { view(message); });
@@ -82,12 +92,14 @@ class StudioClient : public ViewClient {
     const auto name = message.at("script").get<std::string>();
     std::string page = message.value("page", "");
     if (page.empty()) page = make_token();
-    if (!is_page_name(page))
-      throw Error(ErrorCode::invalid_argument, "a page is called by up to 32 hexadecimal digits");
+    check_page_name(page);
     on_disk_ = folder_->read(name);
     const std::string text = with_plain_line_ends(*on_disk_);
     enter(name, page);
     has_typed_ = false;
+    folder_->forget_old_typed(name, [&](const std::string& file, const std::string& user) {
+      return pages_->has(file, user);
+    });
     offered_ = folder_->typed(name, [&](const TypedText& typed) {
       return typed.text != text && !pages_->has(file_, typed.page);
     });
@@ -114,7 +126,7 @@ class StudioClient : public ViewClient {
       throw Error(ErrorCode::limit, "the script is longer than 4 MiB");
     const std::string name = script_.empty() ? (folder_->path() / "untitled.crt").string()
                                              : folder_->file_of(script_).string();
-    const Revision revision{message.at("revision").get<std::uint32_t>(), name, text};
+    const Revision revision{text::whole_number<std::uint32_t>(message.at("revision")), name, text};
     std::optional<ViewOptions> options;
     if (message.contains("view")) options = view_options_of(message.at("view"), TextPlaces(*text));
     text_ = std::move(text);
@@ -168,9 +180,9 @@ class StudioClient : public ViewClient {
     } else {
       throw Error(ErrorCode::invalid_argument, "nobody can answer this");
     }
-    const auto unit = message.at("at").get<std::uint32_t>();
-    const auto revision = message.at("revision").get<std::uint32_t>();
-    const json question = {{"type", "ask"}, {"id", message.at("id")}};
+    const auto unit = text::whole_number<std::uint32_t>(message.at("at"));
+    const auto revision = text::whole_number<std::uint32_t>(message.at("revision"));
+    const json question = {{"type", "ask"}, {"id", id_of(message)}};
     const bool is_taken =
         analyst_.ask([this, unit, revision, question, answer](const Analysis& analysis) {
           const bool is_old = analysis.revision.number != revision;
@@ -179,7 +191,7 @@ class StudioClient : public ViewClient {
                   {"id", question.at("id")},
                   {"revision", analysis.revision.number},
                   {"result", is_old ? json(nullptr) : answer(analysis, unit)}});
-          } catch (const Error& error) {
+          } catch (const std::exception& error) {
             complain(error.what(), question);
           }
         });
@@ -192,6 +204,8 @@ class StudioClient : public ViewClient {
     if (on_disk_ && on_disk_->find("\r\n") != std::string::npos) text = with_wide_line_ends(text);
     if (text.size() > Folder::longest_script)
       throw Error(ErrorCode::limit, "the script is longer than 4 MiB");
+    const std::shared_ptr<std::mutex> saving = pages_->saving(folder_->file_of(name).string());
+    const std::lock_guard lock(*saving);
     const bool is_forced = message.value("force", false);
     if (!is_forced && has_changed_outside(name)) {
       return send({{"type", "conflict"},

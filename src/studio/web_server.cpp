@@ -6,6 +6,7 @@
 #include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <crt/error.hpp>
 #include <csignal>
 
@@ -22,6 +23,9 @@ class PlainTransport : public Transport {
   }
 };
 
+/// There is such a pause before connections are asked for again that the system cannot give.
+constexpr std::chrono::milliseconds accept_pause{100};
+
 IpAddress address_of(const std::string& text) {
   const std::optional<IpAddress> address = IpAddress::parse(text);
   if (!address) throw Error(ErrorCode::invalid_argument, "'" + text + "' is no IP address");
@@ -34,6 +38,7 @@ class WebServer::State {
  public:
   State(const WebServerOptions& options, MakeClient make_client)
       : acceptor_(context_),
+        pause_(context_),
         signals_(context_),
         input_(context_),
         shared_(std::make_shared<Shared>(
@@ -60,6 +65,10 @@ class WebServer::State {
     }
   }
 
+  ~State() { shared_->desks.clear(); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
   std::uint16_t port() const { return shared_->port; }
 
   void run() {
@@ -79,13 +88,21 @@ class WebServer::State {
   void accept() {
     acceptor_.async_accept([this](Code failed, tcp::socket socket) {
       if (!acceptor_.is_open()) return;
-      if (!failed) {
-        make_way();
-        Code ignored;
-        socket.set_option(tcp::no_delay(true), ignored);
-        transport().begin(std::move(socket), shared_);
-      }
+      if (failed) return accept_later();
+      if (shared_->sessions.size() >= shared_->options.most_connections) make_way();
+      Code ignored;
+      socket.set_option(tcp::no_delay(true), ignored);
+      transport().begin(std::move(socket), shared_);
       accept();
+    });
+  }
+
+  /// The system may have no descriptor left for those who wait. Then they wait for one.
+  void accept_later() {
+    make_way();
+    pause_.expires_after(accept_pause);
+    pause_.async_wait([this](Code failed) {
+      if (!failed && acceptor_.is_open()) accept();
     });
   }
 
@@ -97,7 +114,7 @@ class WebServer::State {
   /// ends. So strangers keep out nobody for long, and no page that is open.
   void make_way() {
     std::list<Session*>& visits = shared_->visits;
-    if (visits.empty() || shared_->sessions.size() < shared_->options.most_connections) return;
+    if (visits.empty()) return;
     Session* oldest = visits.front();
     visits.pop_front();
     oldest->end();
@@ -116,13 +133,16 @@ class WebServer::State {
     Code ignored;
     input_.close(ignored);
     acceptor_.close(ignored);
+    pause_.cancel();
     signals_.cancel(ignored);
+    signals_.clear(ignored);  // a second one ends the program at once
     for (Session* session : std::set<Session*>(shared_->sessions)) session->end();
   }
 
   const PlainTransport plain_;
   net::io_context context_{1};
   tcp::acceptor acceptor_;
+  net::steady_timer pause_;
   net::signal_set signals_;
   net::posix::stream_descriptor input_;
   std::shared_ptr<Shared> shared_;
