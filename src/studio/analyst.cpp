@@ -6,7 +6,7 @@
 namespace crt::studio {
 
 Analyst::Analyst(Question send_tokens, Question send_diagnostics,
-                 std::function<void(const std::string& why)> failed)
+                 std::function<void(const char* why)> failed)
     : send_tokens_(std::move(send_tokens)),
       send_diagnostics_(std::move(send_diagnostics)),
       failed_(std::move(failed)),

@@ -11,7 +11,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <thread>
 
 #include "studio/renderer.hpp"
@@ -36,7 +35,7 @@ class Analyst {
   /// first to say what its tokens are, then what is wrong with it. `failed` gets the reason if
   /// neither can be found out.
   Analyst(Question send_tokens, Question send_diagnostics,
-          std::function<void(const std::string& why)> failed);
+          std::function<void(const char* why)> failed);
   ~Analyst();
   Analyst(const Analyst&) = delete;
   Analyst& operator=(const Analyst&) = delete;
@@ -51,7 +50,7 @@ class Analyst {
 
   const Question send_tokens_;
   const Question send_diagnostics_;
-  const std::function<void(const std::string&)> failed_;
+  const std::function<void(const char*)> failed_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Revision> newest_;

@@ -61,12 +61,12 @@ class StudioClient : public ViewClient {
         page_(make_token()),
         analyst_([this](const Analysis& analysis) { send_text(analysis_message(analysis)); },
                  [this](const Analysis& analysis) { send(diagnostics_message(analysis)); },
-                 [this](const std::string& why) {
+                 [this](const char* why) {
                    complain(why, {{"type", "text"}});
                  }),
         keeper_(folder_, [this](const std::string& script, const std::string& why) {
-          complain("what is typed into '" + script + "' is not kept beside it: " + why,
-                   {{"type", "text"}});
+          const std::string what = "what is typed into '" + script + "' is not kept beside it: ";
+          complain((what + why).c_str(), {{"type", "text"}});
         }) {
     on("open", [this](const json& message) { open(message); });
     on("text", [this](const json& message) { take_text(message); });

@@ -46,7 +46,11 @@ void TypedKeeper::work() {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return is_ended_ || !waiting_.empty(); });
     }
-    write_all();
+    try {
+      write_all();
+    } catch (const std::exception&) {
+      // There is no memory left. The browser keeps what is typed, too.
+    }
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, pause, [this] { return is_ended_; });
     if (is_ended_ && waiting_.empty()) return;
@@ -71,8 +75,9 @@ void TypedKeeper::write(const std::string& script, const std::string& page,
   } catch (const std::exception& error) {
     why = error.what();
   }
-  const bool is_news = why != std::exchange(why_, why);
-  if (is_news && !why.empty()) failed_(script, why);
+  const bool is_news = why != why_;
+  why_ = std::move(why);
+  if (is_news && !why_.empty()) failed_(script, why_);
 }
 
 }  // namespace crt::studio

@@ -116,14 +116,18 @@ void ViewClient::send_picture(const EncodedPicture& picture) {
   last_picture_ = picture;
 }
 
-void ViewClient::complain(const std::string& why, const json& message) const {
-  json error = {{"type", "error"}, {"message", why}};
-  // Only what is short is repeated.
-  for (const auto& [name, of] : {std::pair("id", "id"), std::pair("about", "type")}) {
-    if (message.is_object() && message.contains(of) && text::is_json_id(message.at(of)))
-      error[name] = message.at(of);
+void ViewClient::complain(const char* why, const json& message) const noexcept {
+  try {
+    json error = {{"type", "error"}, {"message", why}};
+    // Only what is short is repeated.
+    for (const auto& [name, of] : {std::pair("id", "id"), std::pair("about", "type")}) {
+      if (message.is_object() && message.contains(of) && text::is_json_id(message.at(of)))
+        error[name] = message.at(of);
+    }
+    send(error);
+  } catch (const std::exception&) {
+    // There is no memory for it.
   }
-  send(error);
 }
 
 void ViewClient::set_camera(const json& message) {

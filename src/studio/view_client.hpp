@@ -39,8 +39,8 @@ class ViewClient : public Client {
   /// Returns the id of a message. Throws Error (invalid_argument) if that is no number or short
   /// text.
   static nlohmann::json id_of(const nlohmann::json& message);
-  /// Answers a message with what is wrong with it.
-  void complain(const std::string& why, const nlohmann::json& message) const;
+  /// Answers a message with what is wrong with it, if there is memory for that. It never throws.
+  void complain(const char* why, const nlohmann::json& message) const noexcept;
   Renderer& renderer() { return renderer_; }
 
  private:

@@ -9,6 +9,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <crt/error.hpp>
 #include <csignal>
+#include <exception>
 
 #include "studio/session.hpp"
 
@@ -77,7 +78,7 @@ class WebServer::State {
     });
     if (input_.is_open()) watch_input();
     accept();
-    context_.run();
+    while (!runs_out()) continue;
   }
 
   void stop() {
@@ -85,15 +86,26 @@ class WebServer::State {
   }
 
  private:
+  /// Does what there is to do. Returns false if it must go on: something has failed, as there is no
+  /// memory above all. Then the connection that it was done for has ended with it, and no other.
+  bool runs_out() {
+    try {
+      context_.run();
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+
   void accept() {
     acceptor_.async_accept([this](Code failed, tcp::socket socket) {
       if (!acceptor_.is_open()) return;
       if (failed) return accept_later();
+      accept();  // first, as what follows may fail
       if (shared_->sessions.size() >= shared_->options.most_connections) make_way();
       Code ignored;
       socket.set_option(tcp::no_delay(true), ignored);
       transport().begin(std::move(socket), shared_);
-      accept();
     });
   }
 

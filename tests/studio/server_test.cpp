@@ -15,13 +15,11 @@
 #include <thread>
 #include <vector>
 
+#include "studio/session.hpp"
+
 using namespace crt::studio;
 
 namespace {
-
-namespace net = boost::asio;
-namespace beast = boost::beast;
-using net::ip::tcp;
 
 /// A Gate keeps those who come until it is opened.
 class Gate {
@@ -59,7 +57,7 @@ class Log {
   std::vector<std::string> lines_;
 };
 
-/// A Parrot repeats what it is told. Some words make it wait at the gate, at once or at its end.
+/// A Parrot repeats what it gets. Some words make it wait at the gate, at once or at its end.
 class Parrot : public Client {
  public:
   Parrot(std::shared_ptr<Connection> connection, Gate& gate, Log& log)
@@ -89,8 +87,12 @@ class Parrot : public Client {
 /// A ParrotServer serves until it is destroyed.
 class ParrotServer {
  public:
-  explicit ParrotServer(WebServer::MakeClient make, std::size_t most_clients = 16)
-      : server_({.token = "t", .ends_by_signals = false, .most_clients = most_clients},
+  explicit ParrotServer(WebServer::MakeClient make, std::size_t most_clients = 16,
+                        std::shared_ptr<const Transport> transport = {})
+      : server_({.transport = std::move(transport),
+                 .token = "t",
+                 .ends_by_signals = false,
+                 .most_clients = most_clients},
                 std::move(make)),
         thread_([this] { server_.run(); }) {}
   ~ParrotServer() {
@@ -273,4 +275,23 @@ TEST_CASE("a client that fails, or cannot be made, ends its own connection alone
   Page unmade(server);
   CHECK_THROWS(unmade.receive());
   CHECK(other.ask("still here") == "still here");
+}
+
+TEST_CASE("what fails in the server's thread ends its own connection alone") {
+  Served served;
+  /// Fails with every other connection.
+  struct FailingTransport : Transport {
+    void begin(tcp::socket socket, const std::shared_ptr<Shared>& shared) const override {
+      if (count_++ % 2 == 1) throw std::bad_alloc();
+      std::make_shared<Visit<Plain>>(Plain::Stream(std::move(socket)), shared)->start();
+    }
+    mutable int count_ = 0;
+  };
+  const ParrotServer server(served.make, 16, std::make_shared<FailingTransport>());
+  Page page(server);
+  for (int i = 0; i < 3; ++i) {
+    CHECK_THROWS(Page(server));
+    CHECK(Page(server).ask("hello") == "hello");
+  }
+  CHECK(page.ask("still here") == "still here");
 }
