@@ -39,8 +39,8 @@ std::unique_ptr<Response> respond(const Request& request, const Shared& shared, 
   return response;
 }
 
-std::unique_ptr<Response> refuse(const Request& request, const Shared& shared, http::status status,
-                                 std::string_view why) {
+std::unique_ptr<Response> refusal(const Request& request, const Shared& shared, http::status status,
+                                  std::string_view why) {
   return respond(request, shared, status, {why, "text/plain; charset=utf-8"});
 }
 
@@ -104,16 +104,16 @@ std::unique_ptr<Response> answer_to_noise(Code failed, const Shared& shared) {
       failed == http::error::end_of_stream)
     return nullptr;
   if (failed == http::error::header_limit || failed == http::error::buffer_overflow)
-    return refuse({}, shared, http::status::request_header_fields_too_large,
-                  "The header is too long.");
+    return refusal({}, shared, http::status::request_header_fields_too_large,
+                   "The header is too long.");
   if (failed == http::error::body_limit || failed == http::error::unexpected_body)
-    return refuse({}, shared, http::status::payload_too_large, "Requests have no body here.");
-  return refuse({}, shared, http::status::bad_request, "This is no request.");
+    return refusal({}, shared, http::status::payload_too_large, "Requests have no body here.");
+  return refusal({}, shared, http::status::bad_request, "This is no request.");
 }
 
 std::unique_ptr<Response> answer_to(const Request& request, const Shared& shared) {
   const auto refuse = [&](http::status status, std::string_view why) {
-    return studio::refuse(request, shared, status, why);
+    return refusal(request, shared, status, why);
   };
   const std::string_view host = view_of(request[http::field::host]);
   const std::string_view target = view_of(request.target());

@@ -83,7 +83,7 @@ class StudioClient : public ViewClient {
           {"beginning", text::first_script("scene.crt")},
           {"objects", objects_json()}});
   }
-  ~StudioClient() override { pages_->remove(file_, page_); }
+  ~StudioClient() override { pages_->remove(file_, page_, this); }
   StudioClient(const StudioClient&) = delete;
   StudioClient& operator=(const StudioClient&) = delete;
 
@@ -110,11 +110,11 @@ class StudioClient : public ViewClient {
 
   /// Makes a script that of this page.
   void enter(const std::string& script, const std::string& page) {
-    pages_->remove(file_, page_);
+    pages_->remove(file_, page_, this);
     script_ = script;
     file_ = script.empty() ? "" : folder_->file_of(script).string();
     page_ = page;
-    pages_->add(file_, page_);
+    pages_->add(file_, page_, this);
   }
 
   /// Says whether what was offered is still nobody's.
@@ -137,6 +137,7 @@ class StudioClient : public ViewClient {
 
   /// Keeps what is typed until it is what the file has. What was offered is adopted by typing it.
   void keep_typed() {
+    if (!pages_->is_newest(file_, page_, this)) return;
     has_typed_ = !on_disk_ || *text_ != with_plain_line_ends(*on_disk_);
     if (!has_typed_) return keeper_.forget(script_, page_);
     if (has_offer() && offered_->text == *text_) {
