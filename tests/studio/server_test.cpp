@@ -8,6 +8,8 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 #include <condition_variable>
+#include <csignal>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -112,9 +114,10 @@ class ParrotServer {
 /// A Page is connected with the server.
 class Page {
  public:
-  explicit Page(const ParrotServer& server) : stream_(context_) {
-    stream_.next_layer().connect({net::ip::address_v4::loopback(), server.port()});
-    stream_.handshake("127.0.0.1:" + std::to_string(server.port()), "/socket?token=t");
+  explicit Page(const ParrotServer& server) : Page(server.port()) {}
+  explicit Page(std::uint16_t port) : stream_(context_) {
+    stream_.next_layer().connect({net::ip::address_v4::loopback(), port});
+    stream_.handshake("127.0.0.1:" + std::to_string(port), "/socket?token=t");
   }
 
   void send(const std::string& text) { stream_.write(net::buffer(text)); }
@@ -294,4 +297,20 @@ TEST_CASE("what fails in the server's thread ends its own connection alone") {
     CHECK(Page(server).ask("hello") == "hello");
   }
   CHECK(page.ask("still here") == "still here");
+}
+
+TEST_CASE("after a signal no client is waited for, and the next one ends the program") {
+  Served served;
+  WebServer server({.token = "t"}, served.make);
+  std::thread thread([&] { server.run(); });
+  Page page(server.port());
+  CHECK(page.ask("end slowly") == "end slowly");
+  std::raise(SIGINT);
+  thread.join();
+  struct sigaction now {};
+  REQUIRE(sigaction(SIGINT, nullptr, &now) == 0);
+  const bool ends_the_program = now.sa_handler == SIG_DFL;
+  CHECK(ends_the_program);
+  CHECK(served.log.lines() == std::vector<std::string>{"end slowly"});
+  served.gate.open();
 }
