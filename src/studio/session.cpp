@@ -89,7 +89,7 @@ std::shared_ptr<Desk> open_desk(const std::shared_ptr<Shared>& shared,
             });
           }};
   try {
-    const auto desk = std::make_shared<Desk>(std::move(events));
+    auto desk = std::make_shared<Desk>(std::move(events));
     *place = desk;
     shared->desks.insert(desk);
     return desk;
