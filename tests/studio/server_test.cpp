@@ -175,17 +175,22 @@ TEST_CASE("no page waits until another is made") {
   Served served;
   std::mutex mutex;
   bool is_first = true;
+  Gate begun;
   const ParrotServer server([&](std::shared_ptr<Connection> connection) {
     bool waits = false;
     {
       const std::lock_guard lock(mutex);
       waits = std::exchange(is_first, false);
     }
-    if (waits) served.gate.pass();
+    if (waits) {
+      begun.open();
+      served.gate.pass();
+    }
     return served.make(std::move(connection));
   });
   Page first(server);
   first.send("hello");
+  begun.pass();
   CHECK(Page(server).ask("I am the second") == "I am the second");
   served.gate.open();
   CHECK(first.receive() == "hello");
