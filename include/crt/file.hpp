@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace crt {
@@ -23,6 +24,9 @@ namespace crt {
 ///
 /// Symbolic links are followed. What they lead to is replaced or made, and the links stay.
 ///
+/// The content is on its disk before it takes the old one's place (fsync), so that a machine that
+/// stops has one of both. Pictures, which can be rendered again, do not wait for that.
+///
 /// What is no regular file (a device, a named pipe) is written to as it is. So is a descriptor of
 /// the process by its name (/dev/stdout, /dev/fd/3). Opening a pipe waits for a reader. A pipe
 /// whose reader has gone is an error and no signal.
@@ -32,6 +36,18 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> co
 
 /// Makes a file hold a text, otherwise as the function above.
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// Makes a regular file in an open folder hold a text, all of it or none, as write_file() does. No
+/// link is followed, and nothing but a regular file is written to, whatever somebody does in the
+/// folder meanwhile.
+///
+/// `folder` is a descriptor, which may have been opened with O_PATH. `name` has no slash. `like` is
+/// empty, or names a file there whose permissions and group the written file gets. If there is no
+/// such file, it is for its owner alone.
+///
+/// Throws Error (io). Any thread may call it.
+void write_file_in(int folder, const std::string& name, std::string_view content,
+                   const std::string& like = {});
 
 /// Finds out, before there is anything to write, whether write_file() can begin. Throws Error (io)
 /// where there is no folder, or neither it nor the file may be written. It changes nothing.

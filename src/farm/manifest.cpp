@@ -10,6 +10,7 @@
 
 #include "core/base/sha256.hpp"
 #include "core/base/whole_file.hpp"
+#include "text/json.hpp"
 
 namespace crt::farm {
 
@@ -20,7 +21,8 @@ using Json = nlohmann::json;
 
 constexpr int format_version = 1;
 constexpr std::size_t most_manifest_bytes = std::size_t{32} << 20;
-constexpr int most_depth = 6;
+/// Pieces are the deepest: lists in lists of objects in a list. As many bytes have fewer values.
+constexpr text::JsonLimits manifest_limits{.depth = 6, .values = most_manifest_bytes};
 
 constexpr std::pair<const char*, bool Aovs::*> aov_names[] = {
     {"depth", &Aovs::depth}, {"normal", &Aovs::normal}, {"id", &Aovs::id},
@@ -247,11 +249,9 @@ std::string to_text(const Manifest& manifest) {
 Manifest parse_manifest(std::string_view text) {
   if (text.size() > most_manifest_bytes) fail("it is too long");
   try {
-    const auto refuse_depth = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
-      if (depth > most_depth) fail("it is nested too deeply");
-      return true;
-    };
-    return read(Json::parse(text, refuse_depth));
+    return read(text::parse_json(text, manifest_limits));
+  } catch (const text::JsonError& error) {
+    fail(error.what());
   } catch (const Json::exception& error) {
     fail(error.what());
   }

@@ -9,6 +9,7 @@
 
 #include "lsp/frames.hpp"
 #include "lsp/requests.hpp"
+#include "text/json.hpp"
 
 namespace crt::lsp {
 
@@ -16,19 +17,14 @@ using nlohmann::json;
 
 namespace {
 
-/// Values within one another are read so deep. The protocol has no use for more.
-constexpr int deepest_json = 64;
-
-json parse_json(const std::string& body) {
-  return json::parse(
-      body, [](int depth, json::parse_event_t, const json&) { return depth <= deepest_json; });
-}
+/// The protocol has no use for more.
+constexpr text::JsonLimits message_limits{.depth = 64};
 
 /// Returns a message's id, or null where it has none that an answer could name.
 json id_of(const json& message) {
   if (!message.is_object() || !message.contains("id")) return nullptr;
   const json& id = message.at("id");
-  return id.is_number_integer() || id.is_string() ? id : json(nullptr);
+  return text::is_json_id(id) && !id.is_number_float() ? id : json(nullptr);
 }
 
 }  // namespace
@@ -74,8 +70,8 @@ class Server::Session {
   void take(const std::string& body) {
     json message;
     try {
-      message = parse_json(body);
-    } catch (const json::exception& error) {
+      message = text::parse_json(body, message_limits);
+    } catch (const text::JsonError& error) {
       return refuse(nullptr, parse_error, error.what());
     }
     const bool is_object = message.is_object();

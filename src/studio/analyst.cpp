@@ -1,12 +1,15 @@
 #include "studio/analyst.hpp"
 
+#include <exception>
 #include <utility>
 
 namespace crt::studio {
 
-Analyst::Analyst(Question send_tokens, Question send_diagnostics)
+Analyst::Analyst(Question send_tokens, Question send_diagnostics,
+                 std::function<void(const char* why)> failed)
     : send_tokens_(std::move(send_tokens)),
       send_diagnostics_(std::move(send_diagnostics)),
+      failed_(std::move(failed)),
       thread_([this] { work(); }) {}
 
 Analyst::~Analyst() {
@@ -34,31 +37,40 @@ bool Analyst::ask(Question question) {
 }
 
 void Analyst::work() {
-  std::optional<Analysis> analysis;
-  bool is_diagnosed = true;
   while (true) {
     std::optional<Revision> newest;
     std::deque<Question> questions;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] {
-        return is_ended_ || newest_ || !is_diagnosed || (analysis && !questions_.empty());
+        return is_ended_ || newest_ || !is_diagnosed_ || (analysis_ && !questions_.empty());
       });
       if (is_ended_) return;
       newest = std::exchange(newest_, std::nullopt);
       questions.swap(questions_);
     }
-    if (newest) {
-      analysis.reset();
-      analysis.emplace(Analysis{*newest, LanguageService(*newest->text, newest->name),
-                                TextPlaces(*newest->text)});
-      send_tokens_(*analysis);
-      is_diagnosed = false;
+    try {
+      analyse(std::move(newest), questions);
+    } catch (const std::exception& error) {  // above all, there is no memory
+      analysis_.reset();
+      is_diagnosed_ = true;
+      failed_(error.what());
     }
-    for (const Question& question : questions) question(*analysis);
-    if (newest) continue;  // perhaps there is a newer one by now
-    if (!std::exchange(is_diagnosed, true)) send_diagnostics_(*analysis);
   }
+}
+
+void Analyst::analyse(std::optional<Revision> newest, const std::deque<Question>& questions) {
+  const bool is_new = newest.has_value();
+  if (is_new) {
+    analysis_.reset();
+    analysis_.emplace(
+        Analysis{*newest, LanguageService(*newest->text, newest->name), TextPlaces(*newest->text)});
+    send_tokens_(*analysis_);
+    is_diagnosed_ = false;
+  }
+  for (const Question& question : questions) question(*analysis_);
+  if (is_new) return;  // perhaps there is a newer one by now
+  if (!std::exchange(is_diagnosed_, true)) send_diagnostics_(*analysis_);
 }
 
 }  // namespace crt::studio

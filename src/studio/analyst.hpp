@@ -32,8 +32,10 @@ class Analyst {
   static constexpr std::size_t most_questions = 64;
 
   /// Takes what is called with each revision, in the analyst's thread:
-  /// first to say what its tokens are, then what is wrong with it.
-  Analyst(Question send_tokens, Question send_diagnostics);
+  /// first to say what its tokens are, then what is wrong with it. `failed` gets the reason if
+  /// neither can be found out.
+  Analyst(Question send_tokens, Question send_diagnostics,
+          std::function<void(const char* why)> failed);
   ~Analyst();
   Analyst(const Analyst&) = delete;
   Analyst& operator=(const Analyst&) = delete;
@@ -44,15 +46,22 @@ class Analyst {
 
  private:
   void work();
+  void analyse(std::optional<Revision> newest, const std::deque<Question>& questions);
 
   const Question send_tokens_;
   const Question send_diagnostics_;
+  const std::function<void(const char*)> failed_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Revision> newest_;
   std::deque<Question> questions_;
   bool has_script_ = false;
   bool is_ended_ = false;
+
+  // What the analyst's thread works on.
+  std::optional<Analysis> analysis_;
+  bool is_diagnosed_ = true;
+
   std::thread thread_;
 };
 

@@ -1,11 +1,15 @@
 #include "studio/folder.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <crt/error.hpp>
 #include <crt/file.hpp>
-#include <fstream>
 #include <system_error>
 
+#include "studio/typed_files.hpp"
 #include "text/utf8.hpp"
 
 namespace crt::studio {
@@ -18,82 +22,58 @@ namespace {
 constexpr std::size_t most_listed = 1000;
 constexpr int deepest_listed = 3;
 constexpr std::size_t most_looked_at = 20000;
+/// No path is longer that the system knows.
+constexpr std::size_t longest_name = 4096;
 
 bool is_within(const fs::path& path, const fs::path& folder) {
   const auto ends = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   return ends.first == folder.end() && ends.second != path.end();
 }
 
+std::string system_message(int error) {
+  return std::generic_category().message(error);
+}
+
+/// Opens a regular file in a folder for reading. A pipe does not make it wait.
+FileHandle open_regular(const FileHandle& folder, const std::string& name) {
+  FileHandle file = open_beneath(folder.get(), name, O_RDONLY | O_NONBLOCK | O_NOCTTY);
+  struct stat status {};
+  if (!file.is_open() || fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  return file;
+}
+
 /// Reads at most so many bytes of a file as a script may have, and one more. Nothing if it fails.
-std::optional<std::string> read_some(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
+std::optional<std::string> read_some(const FileHandle& file) {
   std::string text(Folder::longest_script + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.eof() && stream.fail()) return std::nullopt;
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  std::size_t size = 0;
+  while (size < text.size()) {
+    const ssize_t count = ::read(file.get(), text.data() + size, text.size() - size);
+    if (count == 0) break;
+    if (count > 0) {
+      size += static_cast<std::size_t>(count);
+    } else if (errno != EINTR) {
+      return std::nullopt;
+    }
+  }
+  text.resize(size);
   return text;
 }
 
-constexpr std::string_view typed_ending = ".typed";
-constexpr std::size_t longest_page = 32;
-
-fs::path typed_file_of(const fs::path& script, std::string_view page) {
-  if (!is_page_name(page))
-    throw Error(ErrorCode::invalid_argument, "'" + std::string(page) + "' is no name of a page");
-  std::string name = "." + script.filename().string() + ".";
-  return script.parent_path() / name.append(page).append(typed_ending);
-}
-
-/// A TypedFile has what was kept of a page.
-struct TypedFile {
-  fs::path path;
-  std::string page;
-  fs::file_time_type time;
-};
-
-/// Lists what was kept beside a script which is not newer, the newest first.
-std::vector<TypedFile> typed_files_of(const fs::path& script) {
-  std::vector<TypedFile> files;
-  std::error_code failed;
-  const fs::file_time_type saved = fs::last_write_time(script, failed);
-  const bool is_saved = !failed;
-  const std::string beginning = "." + script.filename().string() + ".";
-  for (fs::directory_iterator place(script.parent_path(), failed), end; !failed && place != end;
-       place.increment(failed)) {
-    std::string name = place->path().filename().string();
-    if (!name.starts_with(beginning) || !name.ends_with(typed_ending)) continue;
-    if (name.size() < beginning.size() + typed_ending.size()) continue;
-    name.resize(name.size() - typed_ending.size());
-    std::string page = name.substr(beginning.size());
-    std::error_code unknown;
-    if (!is_page_name(page) || !fs::is_regular_file(place->symlink_status(unknown))) continue;
-    const fs::file_time_type time = place->last_write_time(unknown);
-    if (!unknown && !(is_saved && saved > time))
-      files.push_back({place->path(), std::move(page), time});
-  }
-  std::sort(files.begin(), files.end(),
-            [](const TypedFile& a, const TypedFile& b) { return a.time > b.time; });
-  return files;
-}
-
 /// Says whether something may be written to or removed: it is no link that may lead elsewhere.
-bool is_plain_or_missing(const fs::path& file) {
-  std::error_code failed;
-  const fs::file_status status = fs::symlink_status(file, failed);
-  return fs::is_regular_file(status) || status.type() == fs::file_type::not_found;
+bool is_plain_or_missing(const FileHandle& folder, const std::string& name) {
+  struct stat status {};
+  if (fstatat(folder.get(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
+    return errno == ENOENT;
+  return S_ISREG(status.st_mode);
 }
 
 }  // namespace
 
-bool is_page_name(std::string_view page) {
-  return !page.empty() && page.size() <= longest_page &&
-         page.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
 Folder::Folder(const fs::path& path) {
   std::error_code failed;
   path_ = fs::canonical(path, failed);
-  if (failed || !fs::is_directory(path_))
+  if (!failed) folder_ = FileHandle(open(path_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (failed || !folder_.is_open())
     throw Error(ErrorCode::io, "there is no folder '" + path.string() + "'");
 }
 
@@ -101,6 +81,8 @@ fs::path Folder::file_of(std::string_view name) const {
   const auto refuse = [&](const char* why) {
     throw Error(ErrorCode::invalid_argument, "'" + std::string(name) + "' " + why);
   };
+  if (name.size() > longest_name)
+    throw Error(ErrorCode::invalid_argument, "the name of the script is too long");
   if (name.empty() || name.find('\0') != std::string_view::npos) refuse("is no name of a file");
   const fs::path relative(name);
   if (relative.extension() != ".crt") refuse("is no script: scripts end in .crt");
@@ -112,11 +94,21 @@ fs::path Folder::file_of(std::string_view name) const {
   return file;
 }
 
+Folder::Place Folder::place_of(std::string_view name) const {
+  fs::path file = file_of(name);
+  const fs::path inner = file.lexically_relative(path_).parent_path();
+  FileHandle folder =
+      open_beneath(folder_.get(), inner.empty() ? "." : inner.string(), O_PATH | O_DIRECTORY);
+  if (!folder.is_open())
+    throw Error(ErrorCode::io, "'" + std::string(name) + "' is in no folder that can be opened: " +
+                                   system_message(errno));
+  return {std::move(folder), file.filename().string(), std::move(file)};
+}
+
 std::string Folder::read(std::string_view name) const {
-  const fs::path file = file_of(name);
-  std::error_code failed;
-  if (!fs::is_regular_file(file, failed))
-    throw Error(ErrorCode::io, "there is no script '" + std::string(name) + "'");
+  const Place place = place_of(name);
+  const FileHandle file = open_regular(place.folder, place.name);
+  if (!file.is_open()) throw Error(ErrorCode::io, "there is no script '" + std::string(name) + "'");
   std::optional<std::string> text = read_some(file);
   if (!text) throw Error(ErrorCode::io, "'" + std::string(name) + "' cannot be read");
   if (text->size() > longest_script)
@@ -127,26 +119,28 @@ std::string Folder::read(std::string_view name) const {
 }
 
 void Folder::write(std::string_view name, std::string_view text) const {
-  const fs::path script = file_of(name);
-  const std::vector<TypedFile> typed = typed_files_of(script);
-  write_file(script, text);
-  std::error_code failed;
-  const fs::file_time_type saved = fs::last_write_time(script, failed);
-  if (failed) return;
-  for (const TypedFile& file : typed) fs::last_write_time(file.path, saved, failed);
+  const Place place = place_of(name);
+  const std::vector<TypedFile> typed = typed_files_of(place.folder, place.name);
+  write_file_in(place.folder.get(), place.name, text);
+  struct stat saved {};
+  if (fstatat(place.folder.get(), place.name.c_str(), &saved, AT_SYMLINK_NOFOLLOW) != 0) return;
+  const timespec times[] = {saved.st_mtim, saved.st_mtim};
+  for (const TypedFile& file : typed)
+    utimensat(place.folder.get(), file.name.c_str(), times, AT_SYMLINK_NOFOLLOW);
 }
 
 void Folder::keep_typed(std::string_view name, std::string_view page, std::string_view text) const {
-  const fs::path file = typed_file_of(file_of(name), page);
-  if (!is_plain_or_missing(file))
-    throw Error(ErrorCode::io, "'" + file.string() + "' is no plain file");
-  write_file(file, text);
+  const Place place = place_of(name);
+  write_file_in(place.folder.get(), typed_file_of(place.name, page), text, place.name);
 }
 
 std::optional<TypedText> Folder::typed(
     std::string_view name, const std::function<bool(const TypedText&)>& is_wanted) const {
-  for (TypedFile& file : typed_files_of(file_of(name))) {
-    std::optional<std::string> text = read_some(file.path);
+  const Place place = place_of(name);
+  for (TypedFile& file : typed_files_of(place.folder, place.name)) {
+    const FileHandle handle = open_regular(place.folder, file.name);
+    if (!handle.is_open()) continue;
+    std::optional<std::string> text = read_some(handle);
     if (!text || text->size() > longest_script || !text::is_utf8(*text)) continue;
     TypedText typed{std::move(file.page), std::move(*text)};
     if (is_wanted(typed)) return typed;
@@ -155,18 +149,30 @@ std::optional<TypedText> Folder::typed(
 }
 
 void Folder::adopt_typed(std::string_view name, std::string_view from, std::string_view to) const {
-  const fs::path script = file_of(name);
-  const fs::path source = typed_file_of(script, from);
-  const fs::path target = typed_file_of(script, to);
-  std::error_code failed;
-  if (is_plain_or_missing(source) && is_plain_or_missing(target))
-    fs::rename(source, target, failed);
+  const Place place = place_of(name);
+  const std::string source = typed_file_of(place.name, from);
+  const std::string target = typed_file_of(place.name, to);
+  if (is_plain_or_missing(place.folder, source) && is_plain_or_missing(place.folder, target))
+    renameat(place.folder.get(), source.c_str(), place.folder.get(), target.c_str());
 }
 
 void Folder::forget_typed(std::string_view name, std::string_view page) const {
-  const fs::path file = typed_file_of(file_of(name), page);
-  std::error_code failed;
-  if (is_plain_or_missing(file)) fs::remove(file, failed);
+  const Place place = place_of(name);
+  const std::string file = typed_file_of(place.name, page);
+  if (is_plain_or_missing(place.folder, file)) unlinkat(place.folder.get(), file.c_str(), 0);
+}
+
+void Folder::forget_old_typed(
+    std::string_view name,
+    const std::function<bool(const std::string& file, const std::string& page)>& is_used) const {
+  const Place place = place_of(name);
+  const std::time_t oldest =
+      std::time(nullptr) - std::chrono::duration_cast<std::chrono::seconds>(typed_time).count();
+  for (const TypedFile& file : all_typed_files(place.folder)) {
+    if (file.time.tv_sec < oldest &&
+        !is_used((place.file.parent_path() / file.script).string(), file.page))
+      unlinkat(place.folder.get(), file.name.c_str(), 0);
+  }
 }
 
 std::vector<std::string> Folder::scripts() const {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "studio/place_text.hpp"
+#include "text/json.hpp"
 
 namespace crt::studio {
 
@@ -235,8 +236,8 @@ json code_json(const View& view, const json& question) {
     code = source_code(*view.original, options);
   } else {
     const json& span = question.at("span");
-    const std::size_t entity =
-        entity_within(view, span.at(0).get<std::uint32_t>(), span.at(1).get<std::uint32_t>());
+    const std::size_t entity = entity_within(view, text::whole_number<std::uint32_t>(span.at(0)),
+                                             text::whole_number<std::uint32_t>(span.at(1)));
     code = source_code(view.original->entities.at(entity), options);
   }
   if (!code.files.empty()) {
@@ -265,7 +266,7 @@ Camera camera_of(const json& value) {
   if (found == projections.end())
     throw Error(ErrorCode::invalid_argument, "there is no such projection");
   camera.projection = static_cast<Projection>(found - projections.begin());
-  const int shape = value.at("apertureShape").get<int>();
+  const int shape = text::whole_number<int>(value.at("apertureShape"));
   if (shape < 0 || shape > static_cast<int>(ApertureShape::line))
     throw Error(ErrorCode::invalid_argument, "there is no such shape of a lens");
   camera.aperture_shape = static_cast<ApertureShape>(shape);

@@ -4,6 +4,7 @@
 #include <crt/draft.hpp>
 #include <crt/error.hpp>
 #include <crt/job.hpp>
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -133,13 +134,23 @@ void Renderer::work() {
     }
     start_ = Clock::now();
     try {
-      render_newest();
-    } catch (const Error& error) {
-      const bool is_cancelled = error.code() == ErrorCode::cancelled;
-      say(is_cancelled ? Phase::cancelled : Phase::failed, 0, is_cancelled ? "" : error.what());
-    } catch (const std::bad_alloc&) {
-      say(Phase::failed, 0, "there is not enough memory");
+      render_or_say_why();
+    } catch (const std::exception&) {
+      // There is not even memory to say so.
     }
+  }
+}
+
+void Renderer::render_or_say_why() {
+  try {
+    render_newest();
+  } catch (const Error& error) {
+    const bool is_cancelled = error.code() == ErrorCode::cancelled;
+    say(is_cancelled ? Phase::cancelled : Phase::failed, 0, is_cancelled ? "" : error.what());
+  } catch (const std::bad_alloc&) {
+    say(Phase::failed, 0, "there is not enough memory");
+  } catch (const std::exception& error) {  // of the system: there is no thread to be had
+    say(Phase::failed, 0, error.what());
   }
 }
 

@@ -91,6 +91,7 @@ class Renderer {
   using Clock = std::chrono::steady_clock;
 
   void work();
+  void render_or_say_why();
   void render_newest();
   bool run_script();
   void take_scene(std::shared_ptr<const Scene> scene, std::vector<EntityPlace> places);

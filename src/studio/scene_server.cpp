@@ -16,6 +16,7 @@
 #include "studio/view_client.hpp"
 #include "studio/view_messages.hpp"
 #include "studio/web_server.hpp"
+#include "text/json.hpp"
 
 namespace crt::studio {
 
@@ -49,7 +50,7 @@ class SceneClient : public ViewClient {
     on("open", [this](const json&) { send_text("opened"); });
     on("text", [this](const json& message) { take_text(message); });
     on("ask", [this](const json& message) {
-      send({{"type", "answer"}, {"id", message.at("id")}, {"result", nullptr}});
+      send({{"type", "answer"}, {"id", id_of(message)}, {"result", nullptr}});
     });
     on("save", [](const json&) {
       throw Error(ErrorCode::unsupported, "the scene is a program's, and cannot be saved here");
@@ -97,16 +98,27 @@ class SceneClient : public ViewClient {
 
   void take_text(const json& message) {
     const auto text = message.at("text").get<std::string>();
-    const auto revision = message.at("revision").get<std::uint32_t>();
-    const std::lock_guard lock(mutex_);
-    if (text != *shown_->text) return send_changed("changed");
-    revision_ = revision;
-    has_revision_ = true;
+    const auto revision = text::whole_number<std::uint32_t>(message.at("revision"));
+    const std::shared_ptr<const ShownScene> shown = shown_or_changed(text);
+    if (!shown) return;
     if (message.contains("view"))
       renderer().set_options(view_options_of(message.at("view"), TextPlaces(text)));
-    send(listing_message(shown_->listing, revision_));
-    send({{"type", "diagnostics"}, {"revision", revision_}, {"diagnostics", json::array()}});
+    // The program may show another scene meanwhile, which does not wait for this one's list.
+    send(listing_message(shown->listing, revision));
+    send({{"type", "diagnostics"}, {"revision", revision}, {"diagnostics", json::array()}});
+    const std::lock_guard lock(mutex_);
+    if (text != *shown_->text) return;  // the page knows
+    revision_ = revision;
+    has_revision_ = true;
     render_shown();
+  }
+
+  /// Returns what is shown if it is listed by this text. If not, it says how it is.
+  std::shared_ptr<const ShownScene> shown_or_changed(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    if (text == *shown_->text) return shown_;
+    send_changed("changed");
+    return nullptr;
   }
 
   const std::string title_;

@@ -1,5 +1,7 @@
 #include "studio/session.hpp"
 
+#include <system_error>
+
 namespace crt::studio {
 
 namespace {
@@ -37,6 +39,11 @@ std::unique_ptr<Response> respond(const Request& request, const Shared& shared, 
   return response;
 }
 
+std::unique_ptr<Response> refusal(const Request& request, const Shared& shared, http::status status,
+                                  std::string_view why) {
+  return respond(request, shared, status, {why, "text/plain; charset=utf-8"});
+}
+
 }  // namespace
 
 Session::Session(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {
@@ -48,6 +55,7 @@ Session::~Session() {
 }
 
 void Outbox::send(SocketMessage message) {
+  if (!is_open_) return;
   {
     const std::lock_guard lock(mutex_);
     messages_.push_back(std::move(message));
@@ -63,9 +71,49 @@ void Outbox::send(SocketMessage message) {
   });
 }
 
+std::shared_ptr<Desk> open_desk(const std::shared_ptr<Shared>& shared,
+                                const net::any_io_executor& executor,
+                                std::shared_ptr<Connection> connection,
+                                std::function<void()> has_room, std::function<void()> has_ended) {
+  // The desk is known by its place here, where its thread finds it only after this function.
+  const auto place = std::make_shared<std::weak_ptr<Desk>>();
+  DeskEvents events{
+      .make_client = [make = shared->make_client,
+                      connection = std::move(connection)] { return make(connection); },
+      .has_room = [executor, has_room = std::move(has_room)] { net::post(executor, has_room); },
+      .has_ended =
+          [executor, place, has_ended = std::move(has_ended), all = std::weak_ptr(shared)] {
+            net::post(executor, [place, has_ended, all] {
+              has_ended();
+              if (const auto known = all.lock()) known->desks.erase(place->lock());
+            });
+          }};
+  try {
+    auto desk = std::make_shared<Desk>(std::move(events));
+    *place = desk;
+    shared->desks.insert(desk);
+    return desk;
+  } catch (const std::system_error&) {
+    return nullptr;
+  }
+}
+
+std::unique_ptr<Response> answer_to_noise(Code failed, const Shared& shared) {
+  // What the parser of requests says has a category of its own.
+  if (failed.category() != Code(http::error::bad_method).category() ||
+      failed == http::error::end_of_stream)
+    return nullptr;
+  if (failed == http::error::header_limit || failed == http::error::buffer_overflow)
+    return refusal({}, shared, http::status::request_header_fields_too_large,
+                   "The header is too long.");
+  if (failed == http::error::body_limit || failed == http::error::unexpected_body)
+    return refusal({}, shared, http::status::payload_too_large, "Requests have no body here.");
+  return refusal({}, shared, http::status::bad_request, "This is no request.");
+}
+
 std::unique_ptr<Response> answer_to(const Request& request, const Shared& shared) {
   const auto refuse = [&](http::status status, std::string_view why) {
-    return respond(request, shared, status, {why, "text/plain; charset=utf-8"});
+    return refusal(request, shared, status, why);
   };
   const std::string_view host = view_of(request[http::field::host]);
   const std::string_view target = view_of(request.target());
@@ -80,7 +128,7 @@ std::unique_ptr<Response> answer_to(const Request& request, const Shared& shared
       return refuse(http::status::forbidden, "The token is wrong.");
     if (!websocket::is_upgrade(request))
       return refuse(http::status::upgrade_required, "This is a WebSocket.");
-    if (shared.clients >= shared.options.most_clients)
+    if (shared.clients() >= shared.options.most_clients)
       return refuse(http::status::service_unavailable, "Too many pages are open.");
     return nullptr;
   }

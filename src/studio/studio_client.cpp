@@ -2,8 +2,10 @@
 
 #include <crt/error.hpp>
 #include <crt/version.hpp>
+#include <exception>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -12,10 +14,12 @@
 #include "studio/analysis_message.hpp"
 #include "studio/analyst.hpp"
 #include "studio/messages.hpp"
+#include "studio/typed_files.hpp"
 #include "studio/typed_keeper.hpp"
 #include "studio/view_client.hpp"
 #include "studio/view_messages.hpp"
 #include "text/first_script.hpp"
+#include "text/json.hpp"
 
 namespace crt::studio {
 
@@ -56,8 +60,14 @@ class StudioClient : public ViewClient {
         pages_(std::move(pages)),
         page_(make_token()),
         analyst_([this](const Analysis& analysis) { send_text(analysis_message(analysis)); },
-                 [this](const Analysis& analysis) { send(diagnostics_message(analysis)); }),
-        keeper_(folder_) {
+                 [this](const Analysis& analysis) { send(diagnostics_message(analysis)); },
+                 [this](const char* why) {
+                   complain(why, {{"type", "text"}});
+                 }),
+        keeper_(folder_, [this](const std::string& script, const std::string& why) {
+          const std::string what = "what is typed into '" + script + "' is not kept beside it: ";
+          complain((what + why).c_str(), {{"type", "text"}});
+        }) {
     on("open", [this](const json& message) { open(message); });
     on("text", [this](const json& message) { take_text(message); });
     on("view", [this](const json& message) { view(message); });
@@ -73,7 +83,7 @@ class StudioClient : public ViewClient {
           {"beginning", text::first_script("scene.crt")},
           {"objects", objects_json()}});
   }
-  ~StudioClient() override { pages_->remove(file_, page_); }
+  ~StudioClient() override { pages_->remove(file_, page_, this); }
   StudioClient(const StudioClient&) = delete;
   StudioClient& operator=(const StudioClient&) = delete;
 
@@ -82,12 +92,14 @@ class StudioClient : public ViewClient {
     const auto name = message.at("script").get<std::string>();
     std::string page = message.value("page", "");
     if (page.empty()) page = make_token();
-    if (!is_page_name(page))
-      throw Error(ErrorCode::invalid_argument, "a page is called by up to 32 hexadecimal digits");
+    check_page_name(page);
     on_disk_ = folder_->read(name);
     const std::string text = with_plain_line_ends(*on_disk_);
     enter(name, page);
     has_typed_ = false;
+    folder_->forget_old_typed(name, [&](const std::string& file, const std::string& user) {
+      return pages_->has(file, user);
+    });
     offered_ = folder_->typed(name, [&](const TypedText& typed) {
       return typed.text != text && !pages_->has(file_, typed.page);
     });
@@ -98,11 +110,11 @@ class StudioClient : public ViewClient {
 
   /// Makes a script that of this page.
   void enter(const std::string& script, const std::string& page) {
-    pages_->remove(file_, page_);
+    pages_->remove(file_, page_, this);
     script_ = script;
     file_ = script.empty() ? "" : folder_->file_of(script).string();
     page_ = page;
-    pages_->add(file_, page_);
+    pages_->add(file_, page_, this);
   }
 
   /// Says whether what was offered is still nobody's.
@@ -114,7 +126,7 @@ class StudioClient : public ViewClient {
       throw Error(ErrorCode::limit, "the script is longer than 4 MiB");
     const std::string name = script_.empty() ? (folder_->path() / "untitled.crt").string()
                                              : folder_->file_of(script_).string();
-    const Revision revision{message.at("revision").get<std::uint32_t>(), name, text};
+    const Revision revision{text::whole_number<std::uint32_t>(message.at("revision")), name, text};
     std::optional<ViewOptions> options;
     if (message.contains("view")) options = view_options_of(message.at("view"), TextPlaces(*text));
     text_ = std::move(text);
@@ -125,6 +137,7 @@ class StudioClient : public ViewClient {
 
   /// Keeps what is typed until it is what the file has. What was offered is adopted by typing it.
   void keep_typed() {
+    if (!pages_->is_newest(file_, page_, this)) return;
     has_typed_ = !on_disk_ || *text_ != with_plain_line_ends(*on_disk_);
     if (!has_typed_) return keeper_.forget(script_, page_);
     if (has_offer() && offered_->text == *text_) {
@@ -168,9 +181,9 @@ class StudioClient : public ViewClient {
     } else {
       throw Error(ErrorCode::invalid_argument, "nobody can answer this");
     }
-    const auto unit = message.at("at").get<std::uint32_t>();
-    const auto revision = message.at("revision").get<std::uint32_t>();
-    const json question = {{"type", "ask"}, {"id", message.at("id")}};
+    const auto unit = text::whole_number<std::uint32_t>(message.at("at"));
+    const auto revision = text::whole_number<std::uint32_t>(message.at("revision"));
+    const json question = {{"type", "ask"}, {"id", id_of(message)}};
     const bool is_taken =
         analyst_.ask([this, unit, revision, question, answer](const Analysis& analysis) {
           const bool is_old = analysis.revision.number != revision;
@@ -179,7 +192,7 @@ class StudioClient : public ViewClient {
                   {"id", question.at("id")},
                   {"revision", analysis.revision.number},
                   {"result", is_old ? json(nullptr) : answer(analysis, unit)}});
-          } catch (const Error& error) {
+          } catch (const std::exception& error) {
             complain(error.what(), question);
           }
         });
@@ -192,6 +205,8 @@ class StudioClient : public ViewClient {
     if (on_disk_ && on_disk_->find("\r\n") != std::string::npos) text = with_wide_line_ends(text);
     if (text.size() > Folder::longest_script)
       throw Error(ErrorCode::limit, "the script is longer than 4 MiB");
+    const std::shared_ptr<std::mutex> saving = pages_->saving(folder_->file_of(name).string());
+    const std::lock_guard lock(*saving);
     const bool is_forced = message.value("force", false);
     if (!is_forced && has_changed_outside(name)) {
       return send({{"type", "conflict"},

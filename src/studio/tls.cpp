@@ -49,6 +49,7 @@ class TlsTransport : public Transport {
     context_.set_options(ssl::context::default_workarounds | ssl::context::no_tlsv1 |
                          ssl::context::no_tlsv1_1 | SSL_OP_NO_RENEGOTIATION |
                          SSL_OP_CIPHER_SERVER_PREFERENCE);
+    allow_only_what_keeps_secrets();
     // A key that asks for a password is refused: nobody may be there to be asked.
     context_.set_password_callback(
         [](std::size_t, ssl::context::password_purpose) { return std::string(); });
@@ -69,6 +70,22 @@ class TlsTransport : public Transport {
   }
 
  private:
+  /// Whoever records what is sent and gets the key one day reads nothing of it (forward secrecy),
+  /// and nothing is decrypted that was changed on its way (AEAD). RFC 9325, section 4.2, asks for
+  /// both. A ticket or a session that is kept has the secret of its connection, so there are none.
+  void allow_only_what_keeps_secrets() {
+    SSL_CTX* const context = context_.native_handle();
+    const bool is_set = SSL_CTX_set_cipher_list(context, "ECDHE+AESGCM:ECDHE+CHACHA20") == 1 &&
+                        SSL_CTX_set_ciphersuites(context,
+                                                 "TLS_AES_256_GCM_SHA384:TLS_AES_128_GCM_SHA256:"
+                                                 "TLS_CHACHA20_POLY1305_SHA256") == 1 &&
+                        SSL_CTX_set_num_tickets(context, 0) == 1;
+    if (!is_set)
+      throw Error(ErrorCode::unsupported, "OpenSSL lacks the ciphers of TLS 1.2 and 1.3");
+    context_.set_options(SSL_OP_NO_TICKET);
+    SSL_CTX_set_session_cache_mode(context, SSL_SESS_CACHE_OFF);
+  }
+
   mutable ssl::context context_;  // streams take it as one that may change
 };
 

@@ -1,7 +1,7 @@
 #include "studio/typed_keeper.hpp"
 
 #include <chrono>
-#include <crt/error.hpp>
+#include <exception>
 
 namespace crt::studio {
 
@@ -12,8 +12,8 @@ constexpr std::chrono::milliseconds pause{200};
 
 }  // namespace
 
-TypedKeeper::TypedKeeper(std::shared_ptr<const Folder> folder)
-    : folder_(std::move(folder)), thread_([this] { work(); }) {}
+TypedKeeper::TypedKeeper(std::shared_ptr<const Folder> folder, Failed failed)
+    : folder_(std::move(folder)), failed_(std::move(failed)), thread_([this] { work(); }) {}
 
 TypedKeeper::~TypedKeeper() {
   {
@@ -46,7 +46,11 @@ void TypedKeeper::work() {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return is_ended_ || !waiting_.empty(); });
     }
-    write_all();
+    try {
+      write_all();
+    } catch (const std::exception&) {
+      // There is no memory left. The browser keeps what is typed, too.
+    }
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, pause, [this] { return is_ended_; });
     if (is_ended_ && waiting_.empty()) return;
@@ -60,13 +64,20 @@ void TypedKeeper::write_all() {
     const std::lock_guard lock(mutex_);
     texts.swap(waiting_);
   }
-  for (const auto& [place, text] : texts) {
-    try {
-      folder_->keep_typed(place.first, place.second, *text);
-    } catch (const Error&) {
-      // The folder takes no file. The browser keeps the text, too.
-    }
+  for (const auto& [place, text] : texts) write(place.first, place.second, *text);
+}
+
+void TypedKeeper::write(const std::string& script, const std::string& page,
+                        const std::string& text) {
+  std::string why;
+  try {
+    folder_->keep_typed(script, page, text);
+  } catch (const std::exception& error) {
+    why = error.what();
   }
+  const bool is_news = why != why_;
+  why_ = std::move(why);
+  if (is_news && !why_.empty()) failed_(script, why_);
 }
 
 }  // namespace crt::studio

@@ -2,7 +2,9 @@
 
 #include <crt/error.hpp>
 #include <crt/validate.hpp>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -10,45 +12,77 @@
 #include "studio/machine.hpp"
 #include "studio/messages.hpp"
 #include "studio/view_messages.hpp"
+#include "text/json.hpp"
 
 namespace crt::studio {
 
 using nlohmann::json;
 
+namespace {
+
+/// What a page hides are the most values that a message has: two numbers and a list each.
+constexpr text::JsonLimits message_limits{.depth = 8, .values = 100'000};
+
+}  // namespace
+
 ViewClient::ViewClient(std::shared_ptr<Connection> connection, int threads, Show show)
     : connection_(std::move(connection)), renderer_(events(std::move(show)), threads) {
-  on("camera", [this](const json& message) { set_camera(message); });
-  on("acknowledge", [this](const json& message) {
-    renderer_.acknowledge(message.at("picture").get<std::uint32_t>());
+  on_while_open("camera", [this](const json& message) { set_camera(message); });
+  on_while_open("acknowledge", [this](const json& message) {
+    renderer_.acknowledge(text::whole_number<std::uint32_t>(message.at("picture")));
   });
-  on("render", [this](const json& message) { render(message); });
-  on("pick", [this](const json& message) { pick(message); });
-  on("boxes", [this](const json& message) {
+  on_while_open("render", [this](const json& message) { render(message); });
+  on_while_open("pick", [this](const json& message) { pick(message); });
+  on_while_open("boxes", [this](const json& message) {
     const std::shared_ptr<const View> view = renderer_.view();
     const json result = view ? boxes_json(*view) : json(nullptr);
-    send({{"type", "answer"}, {"id", message.at("id")}, {"result", result}});
+    send({{"type", "answer"}, {"id", id_of(message)}, {"result", result}});
   });
-  on("machine", [this](const json&) { send(machine_message(machine_state())); });
-  on("picture", [this](const json& message) { picture(message); });
-  on("code", [this](const json& message) { code(message); });
+  on_while_open("machine", [this](const json&) { send(machine_message(machine_state())); });
+  on_while_open("picture", [this](const json& message) { picture(message); });
+  on_while_open("code", [this](const json& message) { code(message); });
+}
+
+void ViewClient::on_while_open(const char* type, Handler handler) {
+  on(type, [this, handler = std::move(handler)](const json& message) {
+    if (connection_->is_open()) handler(message);
+  });
 }
 
 void ViewClient::receive(std::string_view text) {
-  json message;
   try {
-    message = json::parse(text);
-    const auto handler = handlers_.find(message.at("type").get<std::string>());
-    if (handler == handlers_.end()) return complain("there is no message of this type", message);
-    try {
-      handler->second(message);
-    } catch (const json::exception&) {
-      complain("the message lacks something, or has it of another type", message);
-    } catch (const Error& error) {
-      complain(error.what(), message);
-    }
-  } catch (const json::exception&) {
+    handle(text::parse_json(text, message_limits));
+  } catch (const text::JsonError&) {
     complain("this is no message of the studio's", {});
+  } catch (const std::bad_alloc&) {
+    complain("there is not enough memory", {});
   }
+}
+
+void ViewClient::handle(const json& message) {
+  if (!message.is_object() || !message.contains("type") || !message.at("type").is_string())
+    return complain("this is no message of the studio's", {});
+  const auto handler = handlers_.find(message.at("type").get_ref<const std::string&>());
+  if (handler == handlers_.end()) return complain("there is no message of this type", message);
+  const char* const misses = "the message lacks something, or has it of another type";
+  try {
+    handler->second(message);
+  } catch (const json::exception&) {
+    complain(misses, message);
+  } catch (const text::JsonError&) {
+    complain(misses, message);
+  } catch (const std::bad_alloc&) {
+    complain("there is not enough memory", message);
+  } catch (const std::exception& error) {  // an Error, or one of the system
+    complain(error.what(), message);
+  }
+}
+
+json ViewClient::id_of(const json& message) {
+  const json& id = message.at("id");
+  if (!text::is_json_id(id))
+    throw Error(ErrorCode::invalid_argument, "an id is a number or a short text");
+  return id;
 }
 
 RenderEvents ViewClient::events(Show show) {
@@ -82,11 +116,18 @@ void ViewClient::send_picture(const EncodedPicture& picture) {
   last_picture_ = picture;
 }
 
-void ViewClient::complain(const std::string& why, const json& message) const {
-  json error = {{"type", "error"}, {"message", why}};
-  if (message.is_object() && message.contains("id")) error["id"] = message.at("id");
-  if (message.is_object() && message.contains("type")) error["about"] = message.at("type");
-  send(error);
+void ViewClient::complain(const char* why, const json& message) const noexcept {
+  try {
+    json error = {{"type", "error"}, {"message", why}};
+    // Only what is short is repeated.
+    for (const auto& [name, of] : {std::pair("id", "id"), std::pair("about", "type")}) {
+      if (message.is_object() && message.contains(of) && text::is_json_id(message.at(of)))
+        error[name] = message.at(of);
+    }
+    send(error);
+  } catch (const std::exception&) {
+    // There is no memory for it.
+  }
 }
 
 void ViewClient::set_camera(const json& message) {
@@ -109,7 +150,7 @@ void ViewClient::pick(const json& message) {
   const double y = message.at("y").get<double>();
   const std::shared_ptr<const View> view = renderer_.view();
   const json result = view ? pick_json(*view, x, y) : json(nullptr);
-  send({{"type", "answer"}, {"id", message.at("id")}, {"result", result}});
+  send({{"type", "answer"}, {"id", id_of(message)}, {"result", result}});
 }
 
 /// Sends the last whole picture as a file.
@@ -130,7 +171,7 @@ void ViewClient::picture(const json& message) {
 void ViewClient::code(const json& message) {
   const std::shared_ptr<const View> view = renderer_.view();
   if (!view) throw Error(ErrorCode::invalid_argument, "there is no scene yet");
-  send({{"type", "answer"}, {"id", message.at("id")}, {"result", code_json(*view, message)}});
+  send({{"type", "answer"}, {"id", id_of(message)}, {"result", code_json(*view, message)}});
 }
 
 }  // namespace crt::studio

@@ -26,20 +26,26 @@ class ViewClient : public Client {
   void receive(std::string_view text) override;
 
  protected:
-  /// Takes a message of one type. It may throw what the JSON library throws, and Error.
+  /// Takes a message of one type. It may throw what reading JSON throws, and Error.
   using Handler = std::function<void(const nlohmann::json&)>;
 
   /// Says what takes messages of a type.
   void on(const char* type, Handler handler) { handlers_[type] = std::move(handler); }
+  /// Says what takes messages that nobody needs once the connection has ended.
+  void on_while_open(const char* type, Handler handler);
   void send(const nlohmann::json& message) const;
   /// Sends a message that is text already.
   void send_text(std::string text) const { connection_->send_text(std::move(text)); }
-  /// Answers a message with what is wrong with it.
-  void complain(const std::string& why, const nlohmann::json& message) const;
+  /// Returns the id of a message. Throws Error (invalid_argument) if that is no number or short
+  /// text.
+  static nlohmann::json id_of(const nlohmann::json& message);
+  /// Answers a message with what is wrong with it, if there is memory for that. It never throws.
+  void complain(const char* why, const nlohmann::json& message) const noexcept;
   Renderer& renderer() { return renderer_; }
 
  private:
   RenderEvents events(Show show);
+  void handle(const nlohmann::json& message);
   void send_picture(const EncodedPicture& picture);
   void set_camera(const nlohmann::json& message);
   void render(const nlohmann::json& message);

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "studio/material_ball.hpp"
+#include "text/json.hpp"
 
 namespace crt::studio {
 
@@ -40,8 +41,8 @@ double finite_number(const json& value) {
 }
 
 SectionPlane section_of(const json& value) {
-  const SectionPlane section{value.at("axis").get<int>(), finite_number(value.at("offset")),
-                             value.at("isFlipped").get<bool>()};
+  const SectionPlane section{text::whole_number<int>(value.at("axis")),
+                             finite_number(value.at("offset")), value.at("isFlipped").get<bool>()};
   if (section.axis < 0 || section.axis > 2)
     throw Error(ErrorCode::invalid_argument, "an axis is 0, 1 or 2");
   return section;
@@ -73,8 +74,8 @@ ViewOptions view_options_of(const json& value, const TextPlaces& places) {
   ViewOptions options;
   options.channel = channel_of(value.at("channel").get<std::string>());
   for (const json& span : value.at("hidden")) {
-    options.hidden.push_back({places.byte_of(span.at(0).get<std::uint32_t>()),
-                              places.byte_of(span.at(1).get<std::uint32_t>())});
+    options.hidden.push_back({places.byte_of(text::whole_number<std::uint32_t>(span.at(0))),
+                              places.byte_of(text::whole_number<std::uint32_t>(span.at(1)))});
   }
   if (!value.at("section").is_null()) options.section = section_of(value.at("section"));
   if (!value.at("region").is_null()) options.region = region_of(value.at("region"));

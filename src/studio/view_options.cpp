@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <crt/material.hpp>
+#include <cstdint>
+#include <iterator>
 #include <utility>
 
 namespace crt::studio {
@@ -16,15 +18,31 @@ bool are_equal(const std::optional<Region>& a, const std::optional<Region>& b) {
   return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
 }
 
-bool encloses(const TextSpan& outer, const TextSpan& inner) {
-  return inner.begin >= outer.begin && inner.end <= outer.end;
-}
+/// HiddenSpans say at once whether one of many spans encloses another.
+class HiddenSpans {
+ public:
+  explicit HiddenSpans(std::vector<TextSpan> spans) : spans_(std::move(spans)) {
+    std::sort(spans_.begin(), spans_.end(),
+              [](const TextSpan& a, const TextSpan& b) { return a.begin < b.begin; });
+    // From here on an end is the last of all spans that begin up to there.
+    std::uint32_t last = 0;
+    for (TextSpan& span : spans_) span.end = last = std::max(last, span.end);
+  }
 
-bool is_hidden(const EntityPlace& place, const std::vector<TextSpan>& hidden) {
-  return std::any_of(hidden.begin(), hidden.end(), [&](const TextSpan& span) {
-    return encloses(span, place.statement) || encloses(span, place.origin);
-  });
-}
+  bool hide(const EntityPlace& place) const {
+    return enclose(place.statement) || enclose(place.origin);
+  }
+
+ private:
+  bool enclose(const TextSpan& inner) const {
+    const auto behind = std::upper_bound(
+        spans_.begin(), spans_.end(), inner.begin,
+        [](std::uint32_t begin, const TextSpan& span) { return begin < span.begin; });
+    return behind != spans_.begin() && std::prev(behind)->end >= inner.end;
+  }
+
+  std::vector<TextSpan> spans_;
+};
 
 /// Returns the half-space that a section takes away.
 Plane cutter_of(const SectionPlane& section) {
@@ -73,8 +91,9 @@ Scene visible_scene(const Scene& scene, const std::vector<EntityPlace>& places,
   };
   const std::optional<Entity> cutter =
       options.section ? std::optional<Entity>(cutter_of(*options.section)) : std::nullopt;
+  const HiddenSpans hidden(options.hidden);
   for (std::size_t i = 0; i < scene.entities.size(); ++i) {
-    if (i < places.size() && is_hidden(places[i], options.hidden)) continue;
+    if (i < places.size() && hidden.hide(places[i])) continue;
     const Entity& entity = scene.entities[i];
     result.entities.push_back(
         kept_as_it_is(i) ? entity : (entity - *cutter).with_id(static_cast<std::uint32_t>(i)));

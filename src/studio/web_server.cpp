@@ -6,8 +6,10 @@
 #include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <crt/error.hpp>
 #include <csignal>
+#include <exception>
 
 #include "studio/session.hpp"
 
@@ -22,6 +24,9 @@ class PlainTransport : public Transport {
   }
 };
 
+/// There is such a pause before connections are asked for again that the system cannot give.
+constexpr std::chrono::milliseconds accept_pause{100};
+
 IpAddress address_of(const std::string& text) {
   const std::optional<IpAddress> address = IpAddress::parse(text);
   if (!address) throw Error(ErrorCode::invalid_argument, "'" + text + "' is no IP address");
@@ -34,6 +39,7 @@ class WebServer::State {
  public:
   State(const WebServerOptions& options, MakeClient make_client)
       : acceptor_(context_),
+        pause_(context_),
         signals_(context_),
         input_(context_),
         shared_(std::make_shared<Shared>(
@@ -60,6 +66,10 @@ class WebServer::State {
     }
   }
 
+  ~State() { shared_->desks.clear(); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
   std::uint16_t port() const { return shared_->port; }
 
   void run() {
@@ -68,7 +78,7 @@ class WebServer::State {
     });
     if (input_.is_open()) watch_input();
     accept();
-    context_.run();
+    while (!runs_out()) continue;
   }
 
   void stop() {
@@ -76,16 +86,35 @@ class WebServer::State {
   }
 
  private:
+  /// Does what there is to do. Returns false if it must go on: something has failed, as there is no
+  /// memory above all. Then the connection that it was done for has ended with it, and no other.
+  bool runs_out() {
+    try {
+      context_.run();
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+
   void accept() {
     acceptor_.async_accept([this](Code failed, tcp::socket socket) {
       if (!acceptor_.is_open()) return;
-      if (!failed) {
-        make_way();
-        Code ignored;
-        socket.set_option(tcp::no_delay(true), ignored);
-        transport().begin(std::move(socket), shared_);
-      }
-      accept();
+      if (failed) return accept_later();
+      accept();  // first, as what follows may fail
+      if (shared_->sessions.size() >= shared_->options.most_connections) make_way();
+      Code ignored;
+      socket.set_option(tcp::no_delay(true), ignored);
+      transport().begin(std::move(socket), shared_);
+    });
+  }
+
+  /// The system may have no descriptor left for those who wait. Then they wait for one.
+  void accept_later() {
+    make_way();
+    pause_.expires_after(accept_pause);
+    pause_.async_wait([this](Code failed) {
+      if (!failed && acceptor_.is_open()) accept();
     });
   }
 
@@ -97,7 +126,7 @@ class WebServer::State {
   /// ends. So strangers keep out nobody for long, and no page that is open.
   void make_way() {
     std::list<Session*>& visits = shared_->visits;
-    if (visits.empty() || shared_->sessions.size() < shared_->options.most_connections) return;
+    if (visits.empty()) return;
     Session* oldest = visits.front();
     visits.pop_front();
     oldest->end();
@@ -116,13 +145,16 @@ class WebServer::State {
     Code ignored;
     input_.close(ignored);
     acceptor_.close(ignored);
+    pause_.cancel();
     signals_.cancel(ignored);
+    signals_.clear(ignored);  // a second one ends the program at once
     for (Session* session : std::set<Session*>(shared_->sessions)) session->end();
   }
 
   const PlainTransport plain_;
   net::io_context context_{1};
   tcp::acceptor acceptor_;
+  net::steady_timer pause_;
   net::signal_set signals_;
   net::posix::stream_descriptor input_;
   std::shared_ptr<Shared> shared_;

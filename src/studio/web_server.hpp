@@ -19,13 +19,16 @@ class Connection {
   virtual ~Connection() = default;
   virtual void send_text(std::string text) = 0;
   virtual void send_binary(std::string bytes) = 0;
+  /// Says whether anybody may still take what is sent.
+  virtual bool is_open() const { return true; }
 };
 
-/// A Client is what is at the server's end of a connection. It is destroyed when that ends.
+/// A Client is what is at the server's end of a connection. It is made, called and, when the
+/// connection has ended, destroyed in a thread of its own, so that it may take its time.
 class Client {
  public:
   virtual ~Client() = default;
-  /// Takes a message, in the server's thread.
+  /// Takes a message. Those that came before the end of the connection also come after it.
   virtual void receive(std::string_view text) = 0;
 };
 
@@ -57,17 +60,20 @@ struct WebServerOptions {
   bool may_be_framed = false;
   /// Where there are more, one of those ends that have not shown the token.
   std::size_t most_connections = 64;
+  /// Those count that have not come to their end yet, too.
   std::size_t most_clients = 16;
   std::size_t longest_message = std::size_t{16} << 20;
 };
 
 class WebServer {
  public:
+  /// It may be called by several threads at once.
   using MakeClient = std::function<std::unique_ptr<Client>(std::shared_ptr<Connection>)>;
 
   /// Listens at once, and takes note of signals from then on if they are to end it. Throws Error:
   /// io if the address or port cannot be had, invalid_argument if the address is none.
   WebServer(const WebServerOptions& options, MakeClient make_client);
+  /// Waits for the end of all clients.
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;

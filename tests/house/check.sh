@@ -209,11 +209,15 @@ only_in '(ft2build|freetype)' src/core/contours | complain "FreeType outside src
 only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/image"
 lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
-lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
+lines_with '^#include (<nlohmann/json\.hpp>|"text/json\.hpp")' "${code[@]}" |
+  without '^src/text/json\.hpp:' |
   without '^src/(lsp/(server|requests|json_values)|farm/manifest)\.cpp:' |
   without '^src/studio/(messages|view_messages|listing|scene_server)\.cpp:' |
   without '^src/studio/(studio_client|view_client)\.cpp:' |
   complain "JSON outside the sources that have to wait for it"
+lines_with '\b([jJ]son::(parse|accept|sax_parse)|parse_json)\(' "${code[@]}" |
+  without '^src/text/json\.hpp:|\btext::parse_json\(' |
+  complain "JSON is read by text::parse_json() alone, which has limits"
 lines_with '^#include <boost/' "${code[@]}" |
   without '^src/studio/(session\.hpp|tls\.cpp|web_server\.cpp):' |
   complain "Boost outside the studio's server: few sources are enough to wait for"

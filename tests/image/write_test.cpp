@@ -155,7 +155,7 @@ TEST_CASE("many threads may write at once, into one directory and to one file") 
 TEST_CASE("a part file that a killed program left is no obstacle") {
   const TemporaryDirectory directory;
   std::ofstream(directory / (".crt-" + std::to_string(getpid()) + "-0.part")) << "left over";
-  core::write_whole_file(directory / "a.txt", to_bytes("content"));
+  core::write_whole_file(directory / "a.txt", to_bytes("content"), core::Flush::later);
   CHECK(file_text(directory / "a.txt") == "content");
   CHECK(directory.entries() == 2);
 }

@@ -84,9 +84,19 @@ class Misuse(ServerTest):
         self.still_lives()
 
     def test_deep_json(self):
-        self.client.send_bytes(framed(b'{"id": 1, "method": "x", "params": ' + b"[" * 100000 +
-                                      b"]" * 100000 + b"}"))
-        self.assertEqual(self.client.answer()["error"]["code"], -32601)
+        deep = b"[" * 200000 + b"]" * 200000
+        for body in (b'{"id": 1, "method": "x", "params": ' + deep + b"}",
+                     b'{"method": "x", "id": ' + deep + b"}", deep):
+            self.client.send_bytes(framed(body))
+            answer = self.client.answer()
+            self.assertEqual((answer["id"], answer["error"]["code"]), (None, -32700))
+        self.still_lives()
+
+    def test_ids_are_whole_numbers_or_short_texts(self):
+        for name in (b"1.5", b"true", b"[]", b"{}", b'"' + b"a" * 129 + b'"'):
+            self.client.send_bytes(framed(b'{"method": "x", "id": ' + name + b"}"))
+            answer = self.client.answer()
+            self.assertEqual((answer["id"], answer["error"]["code"]), (None, -32600))
         self.still_lives()
 
     def test_headers_that_are_none(self):

@@ -21,13 +21,14 @@ SECONDS = 60
 
 class Server:
     """The studio on a folder. `words` are more that the command passes. `certificate` is what it
-    shows by TLS, if it does."""
+    shows by TLS, if it does. `before` is called in its process."""
 
-    def __init__(self, folder, script="", words=(), certificate=None):
+    def __init__(self, folder, script="", words=(), certificate=None, before=None):
         self.process = subprocess.Popen(
             [STUDIO, f"folder={folder}", f"script={script}", "threads=2", *words],
             stdout=subprocess.PIPE,
             text=True,
+            preexec_fn=before,
         )
         self.take(self.process.stdout.readline())
         if certificate:
@@ -75,17 +76,26 @@ class Server:
         connection.close()
         return status
 
+    def answer_to_noise(self, noise):
+        """Sends what is no request. Returns all that comes until the end of the connection."""
+        answer = b""
+        with self.connect() as connection:
+            try:
+                connection.sendall(noise)
+                connection.shutdown(socket.SHUT_WR)
+            except OSError:
+                pass  # the server was done with it before
+            try:
+                while piece := connection.recv(65536):
+                    answer += piece
+            except OSError:
+                pass  # the connection was cut
+        return answer
+
     def send_noise(self):
         """Sends what is no request, on a connection for each, and reads until its end."""
         for noise in (b"\0" * 100, b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 5000, b"\r\n\r\n"):
-            with self.connect() as connection:
-                try:
-                    connection.sendall(noise)
-                    connection.shutdown(socket.SHUT_WR)
-                    while connection.recv(65536):
-                        pass
-                except OSError:
-                    pass  # the server was done with it before
+            self.answer_to_noise(noise)
 
     def upgrade(self, token=None, **how):
         key = base64.b64encode(os.urandom(16)).decode()

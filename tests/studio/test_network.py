@@ -18,13 +18,16 @@ Scene { Sphere { center -> vec3(0, 0, 2) radius -> 1 } }
 MANY = 200  # more than the connections that the server has at once
 
 
-def make_certificate(folder, name, *more):
+EC = ["-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1"]
+RSA = ["-newkey", "rsa:2048"]
+
+
+def make_certificate(folder, name, *more, kind=EC):
     """Makes a certificate that names this machine, and its key. Returns both files."""
     certificate, key = folder / f"{name}.pem", folder / f"{name}.key"
     subprocess.run(
-        ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1",
-         *(more or ["-nodes"]), "-keyout", key, "-out", certificate, "-days", "2",
-         "-subj", "/CN=localhost",
+        ["openssl", "req", "-x509", *kind, *(more or ["-nodes"]),
+         "-keyout", key, "-out", certificate, "-days", "2", "-subj", "/CN=localhost",
          "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1,IP:::1"],
         check=True, capture_output=True,
     )  # fmt: skip
@@ -94,6 +97,40 @@ class Network(unittest.TestCase):
         client.wait("saved")
         self.assertEqual((self.folder / "a.crt").read_text(), "-- saved\n")
         self.assertEqual(server.end(), 0)
+
+    def cipher(self, server, version, ciphers):
+        """Returns the cipher that a browser gets that knows these alone, or None."""
+        browser = ssl.create_default_context(cafile=server.certificate)
+        browser.minimum_version = browser.maximum_version = version
+        if ciphers:
+            # Without the level a browser would not offer what is weak.
+            browser.set_ciphers(ciphers + ":@SECLEVEL=0")
+        connection = socket.create_connection((server.host, server.port), SECONDS)
+        try:
+            with browser.wrap_socket(connection, server_hostname="localhost") as wrapped:
+                self.assertFalse(wrapped.session and wrapped.session.has_ticket)
+                return wrapped.cipher()[0]
+        except ssl.SSLError:
+            return None
+        finally:
+            connection.close()
+
+    def test_what_is_recorded_is_read_by_nobody_who_gets_the_key_later_nor_changed(self):
+        certificate, key = make_certificate(self.keys, "rsa", kind=RSA)
+        server = self.serve(f"tls-cert={certificate}", f"tls-key={key}", certificate=certificate)
+        server.certificate = certificate
+        old, new = ssl.TLSVersion.TLSv1_2, ssl.TLSVersion.TLSv1_3
+        for fine in ("ECDHE-RSA-AES128-GCM-SHA256", "ECDHE-RSA-AES256-GCM-SHA384",
+                     "ECDHE-RSA-CHACHA20-POLY1305"):  # fmt: skip
+            self.assertEqual(self.cipher(server, old, fine), fine)
+        self.assertRegex(self.cipher(server, new, ""), "GCM|POLY1305")
+        # The first two lack forward secrecy, and the others are no AEAD.
+        for weak in ("AES128-GCM-SHA256", "AES256-GCM-SHA384", "ECDHE-RSA-AES128-SHA256",
+                     "ECDHE-RSA-AES256-SHA384", "ECDHE-RSA-AES128-SHA", "AES128-SHA",
+                     "ALL:!ECDHE"):  # fmt: skip
+            with self.subTest(weak):
+                self.assertIsNone(self.cipher(server, old, weak))
+        self.assertEqual(server.status("/"), 200)
 
     def test_the_key_may_be_in_the_certificates_file(self):
         both = self.keys / "both.pem"

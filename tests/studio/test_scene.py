@@ -142,6 +142,17 @@ class Scene(unittest.TestCase):
         self.assertEqual(ball["text"].count("Sphere"), 1)
         self.assertEqual(ball["warnings"], [])
 
+    def test_json_that_is_nested_deeply_does_not_end_the_program(self):
+        client, text, _ = self.start()
+        deep = "[" * 200000 + "]" * 200000
+        client.send_frame(1, f'{{"type": "x", "id": {deep}}}'.encode())
+        self.assertNotIn("id", client.wait("error"))
+        client.send_frame(1, f'{{"type": "ask", "id": {deep}}}'.encode())
+        self.assertNotIn("id", client.wait("error"))
+        client.send(type="ask", id=[7], what="hover")
+        self.assertNotIn("id", client.wait("error"))
+        self.show(client, text)
+
     def test_it_ends_while_pages_look(self):
         client, _, _ = self.start()
         self.assertEqual(self.program.end(), 0)

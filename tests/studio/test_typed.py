@@ -3,6 +3,7 @@
 import os
 import pathlib
 import signal
+import stat
 import tempfile
 import time
 import unittest
@@ -231,6 +232,70 @@ class Typed(unittest.TestCase):
             self.assertEqual(self.server.end(), 0)
             self.assertEqual(secret.read_text(), "a = 10\n")
             self.assertTrue(link.is_symlink())
+
+    def test_it_is_for_those_who_may_read_the_script(self):
+        before = os.umask(0)
+        self.addCleanup(os.umask, before)
+        for number, mode in enumerate((0o600, 0o640, 0o644, 0o604)):
+            self.file.chmod(mode)
+            client = self.client()
+            client.send(type="open", script="a.crt", page=f"{number}")
+            client.wait("opened")
+            self.type(client, f"a = {number}7\n")
+            self.wait_for(*[f"a = {past}7\n" for past in range(number + 1)])
+            kept = self.folder / f".a.crt.{number}.typed"
+            self.assertEqual(stat.S_IMODE(kept.stat().st_mode), mode)
+        self.file.chmod(0o600)
+        self.type(client, "a = 99\n")
+        self.wait_for("a = 07\n", "a = 17\n", "a = 27\n", "a = 99\n")
+        self.assertEqual(stat.S_IMODE(kept.stat().st_mode), 0o600)
+
+    def test_the_page_is_told_once_why_nothing_is_kept_and_again_if_it_fails_again(self):
+        client = self.client()
+        client.send(type="open", script="a.crt", page="7")
+        client.wait("opened")
+        place = self.folder / ".a.crt.7.typed"
+        for round_ in range(2):
+            place.mkdir()
+            for number in range(3):
+                self.type(client, f"a = {number}{round_}\n")
+            failed = client.wait("error")
+            self.assertEqual(failed["about"], "text")
+            self.assertRegex(failed["message"], r"'a\.crt' is not kept beside it: .*typed")
+            place.rmdir()
+            self.type(client, f"a = 8{round_}\n")
+            self.wait_for(f"a = 8{round_}\n")
+            client.send(type="nothing")
+            self.assertEqual(client.wait("error")["about"], "nothing")
+            place.unlink()
+
+    def test_what_is_older_than_thirty_days_goes_when_a_script_beside_it_is_opened(self):
+        day = 24 * 3600
+        now = time.time()
+        (self.folder / "b.crt").write_text(TEXT)
+        ages = {".a.crt.1.typed": 29, ".a.crt.2.typed": 31, ".b.crt.3.typed": 31,
+                ".gone.crt.4.typed": 31, ".gone.crt.5.typed": 29, ".a.crt.X.typed": 31,
+                "a.crt.6.typed": 31, ".a.crt.7.typed.crt": 31, ".note.8.typed": 31}  # fmt: skip
+        for name, age in ages.items():
+            (self.folder / name).write_text(f"a = {age}\n")
+            os.utime(self.folder / name, (now - age * day, now - age * day))
+        (self.folder / ".a.crt.9.typed").symlink_to("b.crt")
+        os.utime(self.file, (now - 40 * day, now - 40 * day))
+        self.assertEqual(self.open(self.client())["typed"], "a = 29\n")
+        left = {path.name for path in self.folder.iterdir()}
+        gone = {".a.crt.2.typed", ".b.crt.3.typed", ".gone.crt.4.typed"}
+        self.assertEqual(left, {"a.crt", "b.crt", ".a.crt.9.typed"} | ages.keys() - gone)
+
+    def test_what_an_open_page_has_typed_does_not_go(self):
+        client = self.client()
+        client.send(type="open", script="a.crt", page="7")
+        client.wait("opened")
+        self.type(client, "a = 7\n")
+        self.wait_for("a = 7\n")
+        past = time.time() - 100 * 24 * 3600
+        os.utime(self.folder / ".a.crt.7.typed", (past, past))
+        self.open(self.client())
+        self.assertEqual(self.kept(), ["a = 7\n"])
 
     def test_only_scripts_of_the_folder_can_be_discarded(self):
         client = self.client()

@@ -1,6 +1,7 @@
 #include "core/base/output_place.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -50,6 +51,17 @@ void check_folder(const fs::path& path) {
                                   folder.string()));
 }
 
+/// Returns what a file in a folder is like, or one for its owner alone if there is none.
+struct stat model_in(int folder, const std::string& name) {
+  struct stat model {};
+  if (::fstatat(folder, name.c_str(), &model, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(model.st_mode))
+    return model;
+  model.st_mode = S_IRUSR | S_IWUSR;
+  model.st_uid = ::geteuid();
+  model.st_gid = ::getegid();
+  return model;
+}
+
 }  // namespace
 
 std::string system_message(int error) {
@@ -73,7 +85,7 @@ OutputPlace output_place(const fs::path& path) {
       return {Kind::new_file, at};
     }
     if (S_ISDIR(status.st_mode)) fail_to_write(path, "it is a folder; add a file's name to it");
-    if (S_ISREG(status.st_mode)) return {Kind::regular_file, at, -1, status};
+    if (S_ISREG(status.st_mode)) return {.kind = Kind::regular_file, .path = at, .model = status};
     if (!S_ISLNK(status.st_mode)) return {Kind::special, at};
     std::error_code failed;
     const fs::path target = fs::read_symlink(at, failed);
@@ -81,6 +93,23 @@ OutputPlace output_place(const fs::path& path) {
     at = at.parent_path() / target;
   }
   fail_to_write(path, "its symbolic links lead in a circle");
+}
+
+OutputPlace output_place_in(int folder, const std::string& name, const std::string& like) {
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos ||
+      name.find('\0') != std::string::npos)
+    fail_to_write(name, "it is no name of a file in a folder");
+  OutputPlace place{.kind = OutputPlace::Kind::new_file, .path = name, .folder = folder};
+  struct stat status {};
+  if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) {
+    if (!S_ISREG(status.st_mode)) fail_to_write(name, "it is no regular file");
+    place.kind = OutputPlace::Kind::regular_file;
+    place.model = status;
+  } else if (errno != ENOENT) {
+    fail_to_write(name, system_message(errno));
+  }
+  if (!like.empty()) place.model = model_in(folder, like);
+  return place;
 }
 
 }  // namespace crt::core

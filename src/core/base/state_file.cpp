@@ -45,13 +45,14 @@ void StateWriter::flush() {
 
 void write_state_file(const std::filesystem::path& path,
                       const std::function<void(StateWriter&)>& store) {
-  write_whole_file(path, [&](const StateWriter::Sink& sink) {
+  const auto produce = [&](const StateWriter::Sink& sink) {
     StateWriter writer(sink);
     store(writer);
     writer.flush();
     const std::uint64_t hash = writer.hash_.value();
     sink(std::as_bytes(std::span(&hash, 1)));
-  });
+  };
+  write_whole_file(path, produce, Flush::at_once);
 }
 
 StateReader::StateReader(const std::filesystem::path& path)

@@ -148,16 +148,33 @@ void write_all(const Descriptor& file, std::span<const std::byte> content, const
   }
 }
 
+/// Waits until what was written to a file is on its disk, as far as the file system can say.
+void flush_to_disk(const Descriptor& file, const fs::path& path) {
+  while (::fsync(file.get()) != 0) {
+    if (errno == EINVAL || errno == ENOTSUP || errno == EROFS) return;
+    if (errno != EINTR) fail_to_write(path, system_message(errno));
+  }
+}
+
 /// Writes to the open file directly, without a temporary file.
-void write_straight(Descriptor file, const fs::path& path, const FilePieces& produce) {
+void write_straight(Descriptor file, const fs::path& path, const FilePieces& produce, Flush flush) {
   if (!file.valid()) fail_to_write(path, system_message(errno));
   const NoWriteSignals no_signals;
   produce([&](std::span<const std::byte> piece) { write_all(file, piece, path); });
+  if (flush == Flush::at_once) flush_to_disk(file, path);
   if (!file.close()) fail_to_write(path, system_message(errno));
 }
 
-Descriptor open_as_it_is(const fs::path& path, int further_flags = 0) {
-  return Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | further_flags));
+Descriptor open_as_it_is(const OutputPlace& place) {
+  return Descriptor(::open(place.path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+}
+
+/// Opens a regular file in order to write over it.
+Descriptor open_in_place(const OutputPlace& place) {
+  // In a folder that others may change it may have become a link or a pipe by now.
+  const int more = place.is_in_folder() ? O_NOFOLLOW | O_NONBLOCK : 0;
+  return Descriptor(
+      ::openat(place.folder, place.path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_TRUNC | more));
 }
 
 /// Returns whether the system refuses to change a folder, which says nothing of the files in it.
@@ -173,7 +190,7 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
-    if (is_made_ && !is_moved_) ::unlink(name_.c_str());
+    if (is_made_ && !is_moved_) ::unlinkat(place_.folder, name_.c_str(), 0);
   }
 
   /// Returns whether the file could be made. If not, errno says why.
@@ -181,17 +198,29 @@ class TemporaryFile {
 
   void write(std::span<const std::byte> content) { write_all(file_, content, place_.path); }
 
-  void move_to_place() {
-    if (is_replacement()) keep_owner_and_permissions();
+  void move_to_place(Flush flush) {
+    if (place_.model) take_owner_and_permissions(*place_.model);
+    if (flush == Flush::at_once) flush_to_disk(file_, place_.path);
     if (!file_.close()) fail_to_write(place_.path, system_message(errno));
-    is_moved_ = ::rename(name_.c_str(), place_.path.c_str()) == 0;
-    if (is_moved_) return;
+    is_moved_ = ::renameat(place_.folder, name_.c_str(), place_.folder, place_.path.c_str()) == 0;
+    if (is_moved_) {
+      if (flush == Flush::at_once) flush_folder();
+      return;
+    }
     if (!is_replacement() || !is_refusal(errno)) fail_to_write(place_.path, system_message(errno));
-    copy_to_place();
+    copy_to_place(flush);
   }
 
  private:
   bool is_replacement() const { return place_.kind == OutputPlace::Kind::regular_file; }
+
+  /// Has the folder's disk know of the move, where a folder can be asked for that.
+  void flush_folder() const {
+    const fs::path folder = name_.has_parent_path() ? name_.parent_path() : fs::path(".");
+    const Descriptor file(
+        ::openat(place_.folder, folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (file.valid()) std::ignore = ::fsync(file.get());
+  }
 
   /// Tries names until one is free. O_EXCL makes each attempt safe from other writers.
   Descriptor create() {
@@ -201,34 +230,36 @@ class TemporaryFile {
     constexpr mode_t private_at_first = 0600;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       name_ = place_.path.parent_path() / fmt::format(".crt-{}-{}.part", ::getpid(), attempt);
-      Descriptor file(::open(name_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC,
-                             is_replacement() ? private_at_first : readable_by_all));
+      Descriptor file(::openat(place_.folder, name_.c_str(),
+                               O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC,
+                               place_.model ? private_at_first : readable_by_all));
       if (file.valid() || errno != EEXIST) return file;
     }
     return Descriptor(-1);
   }
 
-  /// Copies owner and permissions from the replaced file. The system may refuse, which is no error,
-  /// as the content is what counts.
-  void keep_owner_and_permissions() const {
+  /// Takes owner and permissions from another file. The system may refuse, which is no error, as
+  /// the content is what counts. But what a group may do is not given to another one.
+  void take_owner_and_permissions(const struct stat& model) const {
     constexpr mode_t permissions = 0777;
     constexpr auto same_owner = static_cast<uid_t>(-1);
-    const struct stat& old = place_.status;
-    std::ignore = ::fchown(file_.get(), same_owner, old.st_gid);
-    std::ignore = ::fchown(file_.get(), old.st_uid, old.st_gid);
-    std::ignore = ::fchmod(file_.get(), old.st_mode & permissions);
+    const bool has_group = ::fchown(file_.get(), same_owner, model.st_gid) == 0;
+    std::ignore = ::fchown(file_.get(), model.st_uid, model.st_gid);
+    const mode_t withheld = has_group || !place_.is_in_folder() ? 0 : S_IRWXG;
+    std::ignore = ::fchmod(file_.get(), model.st_mode & permissions & ~withheld);
   }
 
   /// Copies the content into the file that is there, for places where no file can be replaced.
-  void copy_to_place() const {
-    const Descriptor source(::open(name_.c_str(), O_RDONLY | O_CLOEXEC));
+  void copy_to_place(Flush flush) const {
+    const Descriptor source(::openat(place_.folder, name_.c_str(), O_RDONLY | O_CLOEXEC));
     if (!source.valid()) fail_to_write(place_.path, system_message(errno));
-    write_straight(open_as_it_is(place_.path, O_TRUNC), place_.path, [&](const auto& write) {
+    const auto produce = [&](const auto& write) {
       std::array<std::byte, std::size_t{1} << 16> buffer;
       while (const std::size_t count = read_some(source, buffer, place_.path)) {
         write(std::span(buffer).first(count));
       }
-    });
+    };
+    write_straight(open_in_place(place_), place_.path, produce, flush);
   }
 
   const OutputPlace& place_;
@@ -247,9 +278,27 @@ bool may_write_in_place(const OutputPlace& place, int refusal) {
 void check_protection(const OutputPlace& place) {
   if (place.kind == OutputPlace::Kind::new_file || place.kind == OutputPlace::Kind::descriptor)
     return;
-  if (::faccessat(AT_FDCWD, place.path.c_str(), W_OK, AT_EACCESS) != 0) {
+  if (::faccessat(place.folder, place.path.c_str(), W_OK, AT_EACCESS) != 0) {
     fail_to_write(place.path, system_message(errno));
   }
+}
+
+void write_to(const OutputPlace& place, const FilePieces& produce, Flush flush) {
+  check_protection(place);
+  if (place.kind == OutputPlace::Kind::descriptor) {
+    Descriptor file(::fcntl(place.descriptor, F_DUPFD_CLOEXEC, 0));
+    return write_straight(std::move(file), place.path, produce, Flush::later);
+  }
+  if (place.kind == OutputPlace::Kind::special)
+    return write_straight(open_as_it_is(place), place.path, produce, Flush::later);
+  TemporaryFile file(place);
+  if (file.is_made()) {
+    const NoWriteSignals no_signals;
+    produce([&](std::span<const std::byte> piece) { file.write(piece); });
+    return file.move_to_place(flush);
+  }
+  if (!may_write_in_place(place, errno)) fail_to_write(place.path, system_message(errno));
+  write_straight(open_in_place(place), place.path, produce, flush);
 }
 
 }  // namespace
@@ -268,33 +317,13 @@ std::vector<std::byte> read_file_start(const fs::path& path, std::size_t max_byt
   return read_start(file, std::min(size, max_bytes), path);
 }
 
-void write_whole_file(const fs::path& path, std::span<const std::byte> content) {
-  write_whole_file(path, [&](const auto& write) { write(content); });
+void write_whole_file(const fs::path& path, std::span<const std::byte> content, Flush flush) {
+  write_whole_file(
+      path, [&](const auto& write) { write(content); }, flush);
 }
 
-void write_whole_file(const fs::path& path, const FilePieces& produce) {
-  const OutputPlace place = output_place(path);
-  check_protection(place);
-  switch (place.kind) {
-    case OutputPlace::Kind::descriptor:
-      write_straight(Descriptor(::fcntl(place.descriptor, F_DUPFD_CLOEXEC, 0)), path, produce);
-      return;
-    case OutputPlace::Kind::special:
-      write_straight(open_as_it_is(place.path), path, produce);
-      return;
-    case OutputPlace::Kind::new_file:
-    case OutputPlace::Kind::regular_file:
-      break;
-  }
-  TemporaryFile file(place);
-  if (file.is_made()) {
-    const NoWriteSignals no_signals;
-    produce([&](std::span<const std::byte> piece) { file.write(piece); });
-    file.move_to_place();
-    return;
-  }
-  if (!may_write_in_place(place, errno)) fail_to_write(path, system_message(errno));
-  write_straight(open_as_it_is(place.path, O_TRUNC), path, produce);
+void write_whole_file(const fs::path& path, const FilePieces& produce, Flush flush) {
+  write_to(output_place(path), produce, flush);
 }
 
 }  // namespace crt::core
@@ -302,11 +331,18 @@ void write_whole_file(const fs::path& path, const FilePieces& produce) {
 namespace crt {
 
 void write_file(const std::filesystem::path& path, std::span<const std::byte> content) {
-  core::write_whole_file(path, content);
+  core::write_whole_file(path, content, core::Flush::at_once);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
   write_file(path, std::as_bytes(std::span(content)));
+}
+
+void write_file_in(int folder, const std::string& name, std::string_view content,
+                   const std::string& like) {
+  core::write_to(
+      core::output_place_in(folder, name, like),
+      [&](const auto& write) { write(std::as_bytes(std::span(content))); }, core::Flush::at_once);
 }
 
 void check_writable(const std::filesystem::path& path) {

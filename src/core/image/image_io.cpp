@@ -276,7 +276,8 @@ Image Image::read(const std::filesystem::path& path) {
 void Image::write(const std::filesystem::path& path, const WriteOptions& options) const {
   const std::string name = path.string();
   try {
-    write_whole_file(path, file_bytes(*this, path.filename().string(), options, name));
+    write_whole_file(path, file_bytes(*this, path.filename().string(), options, name),
+                     Flush::later);
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "write", name, "out of memory");
   }

@@ -1,0 +1,62 @@
+// These tests hide statements, and compare what is left with a search among all of them.
+#include "studio/view_options.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <crt/entity.hpp>
+#include <crt/primitives.hpp>
+#include <random>
+#include <vector>
+
+using namespace crt;
+using namespace crt::studio;
+
+namespace {
+
+bool is_hidden(const EntityPlace& place, const std::vector<TextSpan>& hidden) {
+  const auto encloses = [](const TextSpan& outer, const TextSpan& inner) {
+    return outer.begin <= inner.begin && inner.end <= outer.end;
+  };
+  return std::any_of(hidden.begin(), hidden.end(), [&](const TextSpan& span) {
+    return encloses(span, place.statement) || encloses(span, place.origin);
+  });
+}
+
+/// Makes a span of a short text, whose end may come before its begin.
+TextSpan random_span(std::mt19937& random) {
+  const auto place = [&] { return static_cast<std::uint32_t>(random() % 40); };
+  return {place(), place()};
+}
+
+/// Makes a ball whose place is a number.
+Entity ball(std::uint32_t number) {
+  return Sphere{.center = {static_cast<double>(number), 0, 0}, .radius = 0.25};
+}
+
+}  // namespace
+
+TEST_CASE("what comes from a statement that one of many spans encloses is hidden, and no more") {
+  std::mt19937 random(7);
+  for (int round = 0; round < 300; ++round) {
+    Scene scene;
+    std::vector<EntityPlace> places;
+    std::vector<std::uint32_t> left;
+    ViewOptions options;
+    for (auto count = random() % 6; count > 0; --count)
+      options.hidden.push_back(random_span(random));
+    for (std::uint32_t number = 0; number < 40; ++number) {
+      scene.entities.push_back(ball(number));
+      places.push_back({random_span(random), random_span(random)});
+      if (!is_hidden(places.back(), options.hidden)) left.push_back(number);
+    }
+    // An entity without a place is never hidden.
+    scene.entities.push_back(ball(40));
+    left.push_back(40);
+    const Scene shown = visible_scene(scene, places, options, {});
+    std::vector<std::uint32_t> numbers;
+    for (const BoundingBox& box : boxes_of(shown))
+      numbers.push_back(static_cast<std::uint32_t>((box.lower.x + box.upper.x) / 2));
+    CHECK(numbers == left);
+  }
+}
