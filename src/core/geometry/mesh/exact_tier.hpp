@@ -32,6 +32,8 @@ class ExactMeshTier final : public MeshTier {
                        second_plane.meet(ray_));
   }
 
+  bool may_be_out_of_order() const override { return false; }
+
  private:
   const Triangles& mesh_;
   const ExactRay& ray_;
