@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/geometry/order_of_places.hpp"
@@ -24,7 +25,15 @@ struct TurnedWall {
   Crossing crossing;
   ShiftMask shifts = 0;  ///< the lines that cross a wall; none for an end
   bool along_normal = false;
-  std::uint32_t place = 0;  ///< counts the places along the line
+  std::uint32_t surface = 0;  ///< the body that stands for all walls on its surface
+  std::uint32_t place = 0;    ///< counts the places along the line
+
+  /// Returns whether both are one crossing of one surface. A line crosses a torus twice in the same
+  /// sense, and all other surfaces once.
+  bool is_one_with(const TurnedWall& other) const {
+    return surface == other.surface && along_normal == other.along_normal &&
+           crossing.root / 2 == other.crossing.root / 2;
+  }
 };
 
 /// A PlaceInProfile is where a point of a line is in the profile, relative to a corner's height.
@@ -73,7 +82,8 @@ class TurnedWalls {
   std::optional<bool> is_in_wall(const Profile::Piece& piece, const Crossing& crossing) const;
   PlaceInProfile place_of(const Profile::Piece& piece, const Crossing& crossing) const;
   void meet_ends();
-  void meet_exactly();
+  void meet_exactly(std::span<const std::uint32_t> pieces);
+  void unify();
   void give_start(std::uint32_t wall, Crossing& crossing);
   int order(const Crossing& a, const Crossing& b) const;
   void sort_by_place();
@@ -93,7 +103,8 @@ class TurnedWalls {
   std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
   Walls walls_{&memory_};
   std::pmr::vector<std::uint32_t> candidates_{&memory_};
-  CrossingList met_;  ///< of one body
+  std::pmr::vector<std::uint32_t> open_{&memory_};  ///< candidates that take exact arithmetic
+  CrossingList met_;                                ///< of one body
   std::array<bool, end_count> is_behind_{};
   double largest_error_ = 0;
   std::uint8_t root_at_start_ = 0;
@@ -102,18 +113,20 @@ class TurnedWalls {
 void TurnedWalls::append() {
   const CandidateSearch search(turned_, ray_);
   if (search.misses()) return;
-  bool is_plain = true;
-  search.each(profile_.tree(), [&](std::uint32_t piece) {
-    candidates_.push_back(piece);
-    is_plain = is_plain && !passes_corner(search, profile_.pieces()[piece]);
-  });
+  search.each(profile_.tree(), [&](std::uint32_t piece) { candidates_.push_back(piece); });
   if (candidates_.empty()) return;
-  is_plain = is_plain && std::all_of(candidates_.begin(), candidates_.end(),
-                                     [this](std::uint32_t piece) { return meet_wall(piece); });
-  if (!is_plain || !are_even()) {
-    walls_.clear();
-    meet_exactly();
+  for (const std::uint32_t piece : candidates_) {
+    const std::size_t before = walls_.size();
+    if (!passes_corner(search, profile_.pieces()[piece]) && meet_wall(piece)) continue;
+    walls_.resize(before);
+    open_.push_back(piece);
   }
+  meet_exactly(open_);
+  if (!are_even() && open_.size() < candidates_.size()) {
+    walls_.clear();
+    meet_exactly(candidates_);
+  }
+  unify();
   meet_ends();
   sort_by_place();
   append_parts();
@@ -121,21 +134,22 @@ void TurnedWalls::append() {
 
 void TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts,
                       bool along_normal) {
-  walls_.push_back({crossing, shifts, along_normal});
+  walls_.push_back({crossing, shifts, along_normal, turned_.body_of_surface(face)});
   walls_.back().crossing.face = face;
   if (is_at_start(crossing)) root_at_start_ = crossing.root;
   largest_error_ = std::max(largest_error_, crossing.error);
 }
 
-/// Returns whether the line passes a corner of a piece in a way that the number of crossings may
-/// not show. A line that is nearly across the axis does so twice. It may pass between the corner
-/// that an arc has and its circle, too, and cross its chord there.
+/// Returns whether the line passes a corner of a piece so near that only exact arithmetic says
+/// which walls it crosses there. It may touch them in the corner alone, along a wall, and see
+/// nothing of that. It may pass between the corner that an arc has and its circle, too, and cross
+/// its chord there.
 bool TurnedWalls::passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const {
+  const double gap = piece.arc == Profile::no_arc ? 0
+                                                  : profile_.arcs()[piece.arc].margin *
+                                                        largest_component(piece.to - piece.from);
   const auto passes = [&](const Vec3& corner) {
-    if (search.is_along(corner)) return true;
-    if (piece.arc == Profile::no_arc) return false;
-    const double gap = profile_.arcs()[piece.arc].margin * largest_component(piece.to - piece.from);
-    return search.comes_near(Bounds{corner, corner}.grown(gap));
+    return search.is_along(corner) || search.comes_near(Bounds{corner, corner}.grown(gap));
   };
   return passes(piece.from) || passes(piece.to);
 }
@@ -233,17 +247,36 @@ void TurnedWalls::give_start(std::uint32_t wall, Crossing& crossing) {
   }
 }
 
-/// Finds the crossings with all walls without rounding.
-void TurnedWalls::meet_exactly() {
+/// Finds the crossings with some pieces and their arcs without rounding.
+void TurnedWalls::meet_exactly(std::span<const std::uint32_t> pieces) {
+  if (pieces.empty()) return;
   const ExactWalls exact(profile_, tier_.exact());
   std::vector<ExactWall> crossed;
-  for (const std::uint32_t piece : candidates_) exact.meet(piece, crossed);
+  for (const std::uint32_t piece : pieces) exact.meet(piece, crossed);
   for (ExactWall& wall : crossed) {
     const std::uint32_t face = face_of_wall(wall.wall, false);
     Crossing crossing{.face = face, .root = wall.root};
     tier_.place(wall.place.rounded(), crossing);
     if (starts_on(face)) give_start(wall.wall, crossing);
     add(crossing, face, wall.shifts, wall.along_normal);
+  }
+}
+
+/// Gives walls on one surface, which the line crosses at once, one t: that which is known best.
+void TurnedWalls::unify() {
+  for (std::size_t i = 1; i < walls_.size(); ++i) {
+    const Crossing& last = walls_[i].crossing;
+    const auto others = std::span(walls_).first(i);
+    const auto same = [&](const TurnedWall& wall) { return wall.is_one_with(walls_[i]); };
+    const auto found = std::find_if(others.begin(), others.end(), same);
+    if (found == others.end()) continue;
+    const Crossing best = last.error < found->crossing.error ? last : found->crossing;
+    for (TurnedWall& wall : std::span(walls_).first(i + 1)) {
+      if (!same(wall)) continue;
+      wall.crossing.t = best.t;
+      wall.crossing.t_low = best.t_low;
+      wall.crossing.error = best.error;
+    }
   }
 }
 
