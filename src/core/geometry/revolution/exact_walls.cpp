@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/revolution/turned_walls.hpp"
+#include "core/math/isolated_roots.hpp"
 
 namespace crt::core {
 
@@ -15,12 +16,33 @@ DyadicPolynomial linear(const std::array<Dyadic, 2>& coefficients) {
   return DyadicPolynomial({coefficients[0], coefficients[1]});
 }
 
+/// Returns what has the root of a linear polynomial alone.
+ExactQuadratic quadratic_of(const Dyadic& constant, const Dyadic& rate) {
+  constexpr double half = 0.5;
+  return {Dyadic(), Dyadic(half) * rate, constant};
+}
+
+DoubleDouble quotient(const Dyadic& a, const Dyadic& b) {
+  return (a.rounded() / b.rounded()).unscaled();
+}
+
+/// Returns a root to about 100 bits. There must be one.
+DoubleDouble root_of(const ExactQuadratic& g, std::size_t number) {
+  if (g.a.sign() == 0) return quotient(-g.c, g.b + g.b);
+  return g.discriminant().sign() > 0 ? g.roots()[number] : quotient(-g.b, g.a);
+}
+
+/// Returns whether both neighbours of a line are not on one side of something.
+bool is_divided(ShiftMask mask) {
+  return mask != 0 && mask != both_shifts;
+}
+
 /// Appends all roots of a polynomial. That of 0 has none.
 void append_roots(const DyadicPolynomial& polynomial, std::vector<RealRoot>& roots) {
   if (polynomial.degree() < 1) return;
-  const std::vector<Dyadic> separators = root_separators(polynomial);
-  for (std::size_t i = 1; i < separators.size(); ++i) {
-    roots.emplace_back(polynomial, separators[i - 1], separators[i]);
+  const IsolatedRoots isolated = isolated_roots(polynomial);
+  for (const auto& [low, high] : isolated.brackets) {
+    roots.emplace_back(isolated.polynomial, low, high);
   }
 }
 
@@ -64,7 +86,7 @@ int ExactWalls::slope_at(const ExactQuadratic& g, const Vec3& corner) const {
 ExactWalls::PieceCut ExactWalls::level_cut(const Profile::Piece& piece) const {
   PieceCut cut;
   if (climb_.sign() == 0) return cut;
-  cut.polynomial = linear({height_ - weight_ * Dyadic(piece.from.y), climb_});
+  cut.equation = quadratic_of(height_ - weight_ * Dyadic(piece.from.y), climb_);
   cut.shifts[0] = beyond(piece.from) ^ beyond(piece.to);
   cut.along_normal[0] = climb_.sign() > 0;
   return cut;
@@ -77,7 +99,7 @@ ExactWalls::PieceCut ExactWalls::cut(const Profile::Piece& piece) const {
   const Dyadic squared = square(height);
   const ExactQuadratic g{squared * q_.a - square(radius[1]), squared * q_.b - radius[1] * radius[0],
                          squared * q_.c - square(radius[0])};
-  PieceCut cut{.polynomial = g.polynomial(), .along_normal = {false, true}};
+  PieceCut cut{.equation = g, .along_normal = {false, true}};
   const int bend = g.a.sign();
   const int discriminant = g.discriminant().sign();
   const bool climbs = (piece.to.y > piece.from.y) == (climb_.sign() >= 0);
@@ -95,8 +117,9 @@ ExactWalls::PieceCut ExactWalls::cut(const Profile::Piece& piece) const {
   if (bend == 0 || discriminant == 0) {
     // A line along the side of a cone comes in and goes out through the apex.
     const Vec3& apex = piece.from.x == 0 ? piece.from : piece.to;
-    if (cut.polynomial.degree() < 0) {
-      cut.polynomial = linear({height_ - weight_ * Dyadic(apex.y), climb_});
+    if (bend == 0 && discriminant == 0 && g.c.sign() == 0) {
+      cut.equation = quadratic_of(height_ - weight_ * Dyadic(apex.y), climb_);
+      cut.apex = &apex;
     }
     cut.shifts[0] = falls | rises;
     cut.along_normal[0] = falls == 0;
@@ -181,7 +204,7 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
   places.reserve(roots.size());
   for (RealRoot& root : roots) places.push_back({std::move(root), none});
   roots.clear();
-  append_roots(piece_cut.polynomial, roots);
+  append_roots(piece_cut.equation.polynomial(), roots);
   for (std::size_t i = 0; i < roots.size(); ++i) places.push_back({std::move(roots[i]), i});
   std::sort(places.begin(), places.end(),
             [](Place& a, Place& b) { return order(a.root, b.root) < 0; });
@@ -205,9 +228,9 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
     }
     const bool crosses_disc = in_disc != was_in_disc;
     if (shifts != 0 && crosses_disc) {
-      walls.push_back({here->root, arc.piece, disc_roots, shifts, !in_disc});
+      walls.push_back({here->root.rounded(), arc.piece, disc_roots, shifts, !in_disc});
     } else if (shifts != 0 && of_chord != none) {
-      walls.push_back({here->root, profile_.chord_of(chord.arc),
+      walls.push_back({here->root.rounded(), profile_.chord_of(chord.arc),
                        static_cast<std::uint8_t>(of_chord), shifts,
                        piece_cut.along_normal[of_chord]});
     }
@@ -222,14 +245,38 @@ void ExactWalls::meet(std::uint32_t number, std::vector<ExactWall>& walls) const
   const Profile::Piece& piece = profile_.pieces()[number];
   if (piece.arc != Profile::no_arc) return meet_arc(profile_.arcs()[piece.arc], walls);
   const PieceCut piece_cut = cut(piece);
-  if ((piece_cut.shifts[0] | piece_cut.shifts[1]) == 0) return;
-  std::vector<RealRoot> roots;
-  append_roots(piece_cut.polynomial, roots);
-  for (std::size_t i = 0; i < std::min<std::size_t>(roots.size(), 2); ++i) {
-    if (piece_cut.shifts[i] == 0) continue;
-    walls.push_back({std::move(roots[i]), number, static_cast<std::uint8_t>(i), piece_cut.shifts[i],
-                     piece_cut.along_normal[i]});
+  for (std::size_t i = 0; i < piece_cut.shifts.size(); ++i) {
+    const ShiftMask shifts = piece_cut.shifts[i];
+    if (shifts == 0) continue;
+    ExactWall wall{.wall = number,
+                   .root = static_cast<std::uint8_t>(i),
+                   .shifts = shifts,
+                   .along_normal = piece_cut.along_normal[i]};
+    if (is_divided(shifts)) {
+      place_at(piece_cut.apex ? *piece_cut.apex : crossed_corner(piece, i), i, wall);
+    } else {
+      wall.t = root_of(piece_cut.equation, i);
+    }
+    walls.push_back(wall);
   }
+}
+
+const Vec3& ExactWalls::crossed_corner(const Profile::Piece& piece, std::size_t root) const {
+  const bool passes_from = is_divided(beyond(piece.from));
+  if (!passes_from || !is_divided(beyond(piece.to))) return passes_from ? piece.from : piece.to;
+  const bool climbs = (piece.to.y > piece.from.y) == (climb_.sign() > 0);
+  return climbs == (root == 0) ? piece.from : piece.to;
+}
+
+void ExactWalls::place_at(const Vec3& corner, std::size_t root, ExactWall& wall) const {
+  wall.corner.is_known = true;
+  if (climb_.sign() != 0) {
+    wall.t = quotient(weight_ * Dyadic(corner.y) - height_, climb_);
+    wall.corner.order = climb_.sign() > 0 ? corner.y : -corner.y;
+    return;
+  }
+  wall.t = root_of({q_.a, q_.b, q_.c - square(weight_ * Dyadic(corner.x))}, root);
+  wall.corner.order = root == 0 ? -corner.x : corner.x;
 }
 
 }  // namespace crt::core

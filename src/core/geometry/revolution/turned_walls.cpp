@@ -26,7 +26,8 @@ struct TurnedWall {
   ShiftMask shifts = 0;  ///< the lines that cross a wall; none for an end
   bool along_normal = false;
   std::uint32_t surface = 0;  ///< the body that stands for all walls on its surface
-  std::uint32_t place = 0;    ///< counts the places along the line
+  CornerPlace corner = {};
+  std::uint32_t place = 0;  ///< counts the places along the line
 
   /// Returns whether both are one crossing of one surface. A line crosses a torus twice in the same
   /// sense, and all other surfaces once.
@@ -74,7 +75,8 @@ class TurnedWalls {
   bool is_at_start(const Crossing& crossing) const {
     return ray_.start.face != no_face && crossing.t == 0 && crossing.error == 0;
   }
-  void add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts, bool along_normal);
+  TurnedWall& add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts,
+                  bool along_normal);
   bool are_even() const;
   bool passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const;
   bool meet_wall(std::uint32_t number);
@@ -85,7 +87,7 @@ class TurnedWalls {
   void meet_exactly(std::span<const std::uint32_t> pieces);
   void unify();
   void give_start(std::uint32_t wall, Crossing& crossing);
-  int order(const Crossing& a, const Crossing& b) const;
+  int order(const TurnedWall& a, const TurnedWall& b) const;
   void sort_by_place();
   void append_parts();
   void drop_if_endless();
@@ -113,7 +115,11 @@ class TurnedWalls {
 void TurnedWalls::append() {
   const CandidateSearch search(turned_, ray_);
   if (search.misses()) return;
-  search.each(profile_.tree(), [&](std::uint32_t piece) { candidates_.push_back(piece); });
+  search.each(profile_.tree(), [&](std::uint32_t number) {
+    const Profile::Piece& piece = profile_.pieces()[number];
+    const bool is_boundary = piece.arc != Profile::no_arc || !TurnedProfile::is_on_axis(piece);
+    if (is_boundary) candidates_.push_back(number);
+  });
   if (candidates_.empty()) return;
   for (const std::uint32_t piece : candidates_) {
     const std::size_t before = walls_.size();
@@ -132,12 +138,13 @@ void TurnedWalls::append() {
   append_parts();
 }
 
-void TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts,
-                      bool along_normal) {
+TurnedWall& TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts,
+                             bool along_normal) {
   walls_.push_back({crossing, shifts, along_normal, turned_.body_of_surface(face)});
   walls_.back().crossing.face = face;
   if (is_at_start(crossing)) root_at_start_ = crossing.root;
   largest_error_ = std::max(largest_error_, crossing.error);
+  return walls_.back();
 }
 
 /// Returns whether the line passes a corner of a piece so near that only exact arithmetic says
@@ -164,7 +171,6 @@ bool TurnedWalls::are_even() const {
 /// Finds the crossings with a piece, or with its arc. Returns false if rounding leaves them open.
 bool TurnedWalls::meet_wall(std::uint32_t number) {
   const Profile::Piece& piece = profile_.pieces()[number];
-  if (piece.arc == Profile::no_arc && TurnedProfile::is_on_axis(piece)) return true;
   const std::uint32_t body = end_count + number;
   const RayStart start = turned_.start_on(body, ray_.start);
   met_.clear();
@@ -253,12 +259,12 @@ void TurnedWalls::meet_exactly(std::span<const std::uint32_t> pieces) {
   const ExactWalls exact(profile_, tier_.exact());
   std::vector<ExactWall> crossed;
   for (const std::uint32_t piece : pieces) exact.meet(piece, crossed);
-  for (ExactWall& wall : crossed) {
+  for (const ExactWall& wall : crossed) {
     const std::uint32_t face = face_of_wall(wall.wall, false);
     Crossing crossing{.face = face, .root = wall.root};
-    tier_.place(wall.place.rounded(), crossing);
+    tier_.place(wall.t, crossing);
     if (starts_on(face)) give_start(wall.wall, crossing);
-    add(crossing, face, wall.shifts, wall.along_normal);
+    add(crossing, face, wall.shifts, wall.along_normal).corner = wall.corner;
   }
 }
 
@@ -280,10 +286,13 @@ void TurnedWalls::unify() {
   }
 }
 
-int TurnedWalls::order(const Crossing& a, const Crossing& b) const {
+int TurnedWalls::order(const TurnedWall& a, const TurnedWall& b) const {
   return order_of_places(
-      a, b, [this](std::uint32_t face) { return starts_on(face); },
-      [this](const Crossing& one, const Crossing& other) {
+      a.crossing, b.crossing, [this](std::uint32_t face) { return starts_on(face); },
+      [&](const Crossing& one, const Crossing& other) {
+        if (a.corner.is_known && b.corner.is_known) {
+          return a.corner.order < b.corner.order ? -1 : (a.corner.order > b.corner.order ? 1 : 0);
+        }
         const bool are_ends = one.face < end_count && other.face < end_count;
         if (!are_ends || one.face == other.face) return tier_.order(one, other);
         const int by_first = order_of_ends(tier_.exact(), turned_.normals);
@@ -293,11 +302,11 @@ int TurnedWalls::order(const Crossing& a, const Crossing& b) const {
 
 void TurnedWalls::sort_by_place() {
   std::sort(walls_.begin(), walls_.end(), [this](const TurnedWall& a, const TurnedWall& b) {
-    const int by_place = order(a.crossing, b.crossing);
+    const int by_place = order(a, b);
     return by_place != 0 ? by_place < 0 : a.crossing.face < b.crossing.face;
   });
   for (std::size_t i = 1; i < walls_.size(); ++i) {
-    const bool is_same = order(walls_[i - 1].crossing, walls_[i].crossing) == 0;
+    const bool is_same = order(walls_[i - 1], walls_[i]) == 0;
     walls_[i].place = walls_[i - 1].place + (is_same ? 0 : 1);
   }
 }
