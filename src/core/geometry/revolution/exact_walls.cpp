@@ -1,6 +1,7 @@
 #include "core/geometry/revolution/exact_walls.hpp"
 
-#include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "core/geometry/revolution/turned_walls.hpp"
 #include "core/math/isolated_roots.hpp"
@@ -14,6 +15,39 @@ constexpr ShiftMask moved_up = 1;
 
 DyadicPolynomial linear(const std::array<Dyadic, 2>& coefficients) {
   return DyadicPolynomial({coefficients[0], coefficients[1]});
+}
+
+/// Returns all roots of a polynomial in order. That of 0 has none.
+std::vector<RealRoot> roots_of(const DyadicPolynomial& polynomial) {
+  if (polynomial.degree() < 1) return {};
+  const IsolatedRoots isolated = isolated_roots(polynomial);
+  std::vector<RealRoot> roots;
+  for (const auto& [low, high] : isolated.brackets) {
+    roots.emplace_back(isolated.polynomial, low, high);
+  }
+  return roots;
+}
+
+/// A DividingPlace is where a line may cross a circle or its chord.
+struct DividingPlace {
+  RealRoot root;
+  std::optional<std::size_t> of_chord;  ///< the number of the chord's root, if it has one there
+};
+
+std::vector<DividingPlace> merged(std::vector<RealRoot> circle, std::vector<RealRoot> chord) {
+  std::vector<DividingPlace> places;
+  std::size_t next = 0;  // of the chord's roots
+  for (RealRoot& root : circle) {
+    int order_of_next = 1;
+    while (next < chord.size() && (order_of_next = order(chord[next], root)) < 0) {
+      places.push_back({chord[next], next});
+      ++next;
+    }
+    places.push_back({std::move(root), std::nullopt});
+    if (next < chord.size() && order_of_next == 0) places.back().of_chord = next++;
+  }
+  for (; next < chord.size(); ++next) places.push_back({chord[next], next});
+  return places;
 }
 
 /// Returns what has the root of a linear polynomial alone.
@@ -35,15 +69,6 @@ DoubleDouble root_of(const ExactQuadratic& g, std::size_t number) {
 /// Returns whether both neighbours of a line are not on one side of something.
 bool is_divided(ShiftMask mask) {
   return mask != 0 && mask != both_shifts;
-}
-
-/// Appends all roots of a polynomial. That of 0 has none.
-void append_roots(const DyadicPolynomial& polynomial, std::vector<RealRoot>& roots) {
-  if (polynomial.degree() < 1) return;
-  const IsolatedRoots isolated = isolated_roots(polynomial);
-  for (const auto& [low, high] : isolated.brackets) {
-    roots.emplace_back(isolated.polynomial, low, high);
-  }
 }
 
 }  // namespace
@@ -193,51 +218,31 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
   const int up_is_left = climb_.sign() != 0 ? -height.sign() : width.sign();
   segment.left_if_along = up_is_left > 0 ? moved_up : complement(moved_up);
 
-  struct Place {
-    RealRoot root;
-    std::size_t of_chord;  ///< the number of the chord's root, or none
-  };
-  constexpr std::size_t none = 2;
-  std::vector<Place> places;
-  std::vector<RealRoot> roots;
-  append_roots(segment.boundary(), roots);
-  places.reserve(roots.size());
-  for (RealRoot& root : roots) places.push_back({std::move(root), none});
-  roots.clear();
-  append_roots(piece_cut.equation.polynomial(), roots);
-  for (std::size_t i = 0; i < roots.size(); ++i) places.push_back({std::move(roots[i]), i});
-  std::sort(places.begin(), places.end(),
-            [](Place& a, Place& b) { return order(a.root, b.root) < 0; });
+  std::vector<DividingPlace> places =
+      merged(roots_of(segment.boundary()), roots_of(piece_cut.equation.polynomial()));
 
   bool was_in_disc = false;
   ShiftMask was_inside = 0;
   std::uint8_t disc_roots = 0;
-  for (auto here = places.begin(); here != places.end();) {
-    auto end = here + 1;
-    while (end != places.end() && order(here->root, end->root) == 0) ++end;
-    const Dyadic next = end != places.end() ? RealRoot::between((end - 1)->root, end->root)
-                                            : (end - 1)->root.above();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    auto& [root, of_chord] = places[i];
+    const Dyadic next =
+        i + 1 < places.size() ? RealRoot::between(root, places[i + 1].root) : root.above();
     const bool in_disc = segment.is_in_disc(next);
     const ShiftMask inside = in_disc ? segment.beyond_chord(next) : 0U;
     ShiftMask shifts = was_inside ^ inside;
-    std::size_t of_chord = none;
-    for (auto place = here; place != end; ++place) {
-      if (place->of_chord == none) continue;
-      of_chord = place->of_chord;
-      shifts ^= piece_cut.shifts[of_chord];
-    }
+    if (of_chord) shifts ^= piece_cut.shifts[*of_chord];
     const bool crosses_disc = in_disc != was_in_disc;
     if (shifts != 0 && crosses_disc) {
-      walls.push_back({here->root.rounded(), arc.piece, disc_roots, shifts, !in_disc});
-    } else if (shifts != 0 && of_chord != none) {
-      walls.push_back({here->root.rounded(), profile_.chord_of(chord.arc),
-                       static_cast<std::uint8_t>(of_chord), shifts,
-                       piece_cut.along_normal[of_chord]});
+      walls.push_back({root.rounded(), arc.piece, disc_roots, shifts, !in_disc});
+    } else if (shifts != 0 && of_chord) {
+      walls.push_back({root.rounded(), profile_.chord_of(chord.arc),
+                       static_cast<std::uint8_t>(*of_chord), shifts,
+                       piece_cut.along_normal[*of_chord]});
     }
     if (crosses_disc) ++disc_roots;
     was_in_disc = in_disc;
     was_inside = inside;
-    here = end;
   }
 }
 

@@ -23,9 +23,9 @@
 
 namespace crt::core {
 
-/// A CornerPlace is where a line passes exactly through a corner. `order` is the corner's height,
+/// A PassedCorner is where a line passes exactly through a corner. `order` is the corner's height,
 /// or its distance from the axis if the line is level: with the sign that makes it ascend with t.
-struct CornerPlace {
+struct PassedCorner {
   bool is_known = false;
   double order = 0;
 };
@@ -37,7 +37,7 @@ struct ExactWall {
   std::uint8_t root = 0;  ///< as in Crossing
   ShiftMask shifts = 0;   ///< the lines that cross it
   bool along_normal = false;
-  CornerPlace corner{};
+  PassedCorner corner{};
 };
 
 class ExactWalls {

@@ -26,7 +26,7 @@ struct TurnedWall {
   ShiftMask shifts = 0;  ///< the lines that cross a wall; none for an end
   bool along_normal = false;
   std::uint32_t surface = 0;  ///< the body that stands for all walls on its surface
-  CornerPlace corner = {};
+  PassedCorner corner = {};
   std::uint32_t place = 0;  ///< counts the places along the line
 
   /// Returns whether both are one crossing of one surface. A line crosses a torus twice in the same
