@@ -149,13 +149,13 @@ TEST_CASE("walls of a revolution that overlap in part on one surface leave no fi
   const std::vector<std::vector<Contour>> overlapping = {
       {{{0, 0}, {3, 0}, {3, 4}, {0, 4}}, {{3, 1}, {5, 1}, {5, 3}, {3, 3}}},
       {{{0, 0}, {3, 0}, {1, 4}, {0, 4}}, {{2.5, 1}, {5, 1}, {5, 3}, {1.5, 3}}}};
-  const std::vector<Contour> outlines = {
+  const std::vector<Contour> joined = {
       {{0, 0}, {3, 0}, {3, 1}, {5, 1}, {5, 3}, {3, 3}, {3, 4}, {0, 4}},
       {{0, 0}, {3, 0}, {2.5, 1}, {5, 1}, {5, 3}, {1.5, 3}, {1, 4}, {0, 4}}};
   Random random(3);
-  for (std::size_t i = 0; i < outlines.size(); ++i) {
+  for (std::size_t i = 0; i < joined.size(); ++i) {
     const Revolution twice{.profile = profile_of(overlapping[i])};
-    const Revolution once{.profile = profile_of({outlines[i]})};
+    const Revolution once{.profile = profile_of({joined[i]})};
     int hits = 0;
     for (int k = 0; k < 4000; ++k) {
       const core::ObjectRay ray = [&] {
