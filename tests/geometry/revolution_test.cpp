@@ -13,7 +13,6 @@
 #include "crt/scene.hpp"
 #include "geometry/exact_tools.hpp"
 #include "geometry/line_checks.hpp"
-#include "geometry/torus_oracle.hpp"
 #include "geometry/turned_profiles.hpp"
 
 using namespace crt;
@@ -22,37 +21,6 @@ using namespace crt::test;
 namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
-
-/// Returns all parameters at which a line may cross what a piece makes, or its arc.
-std::vector<Real> wall_candidates(const Profile& profile, const Profile::Piece& piece,
-                                  const RealRay& ray) {
-  if (piece.arc != Profile::no_arc) {
-    const Profile::Arc& arc = profile.arcs()[piece.arc];
-    const RealVec center(0, arc.center.y, 0);
-    const Real ring = magnitude(arc.center.x);
-    return torus_candidates(ray, center, RealVec(0, 1, 0), ring, arc.radius);
-  }
-  const Real height = Real{piece.to.y} - piece.from.y;
-  const Real width = Real{piece.to.x} - piece.from.x;
-  if (height == 0) return plane_roots(ray, {0, 1, 0}, RealVec(piece.from));
-  // These are about the point closest to the middle of the piece, for fewer roundings.
-  const RealVec middle(0, (Real{piece.from.y} + piece.to.y) / 2, 0);
-  const Real closest = -dot(ray.origin - middle, ray.direction) / dot(ray.direction, ray.direction);
-  const RealVec p = ray.at(closest);
-  const RealVec& d = ray.direction;
-  const Real radius = height * piece.from.x + width * (p.y - piece.from.y);
-  const Real rate = width * d.y;
-  std::vector<Real> roots =
-      quadratic_roots(height * height * (d.x * d.x + d.z * d.z) - rate * rate,
-                      height * height * (p.x * d.x + p.z * d.z) - radius * rate,
-                      height * height * (p.x * p.x + p.z * p.z) - radius * radius);
-  for (Real& root : roots) root += closest;
-  return roots;
-}
-
-RealVec in_profile(const RealVec& p) {
-  return {square_root(p.x * p.x + p.z * p.z), p.y, 0};
-}
 
 Subject subject_of(const Revolution& revolution, double size) {
   const RealProfile profile(revolution.profile);
@@ -348,6 +316,21 @@ TEST_CASE("an angle of less than a turn leaves two flat ends") {
   CHECK(at(quarter, {1.5, 0.5, -5}, {0, 0, 1}).size() == 2);
   CHECK(at(quarter, {1.5, 0.5, -5}, {0, 0, 1}).front() == 5);
   CHECK(at(3 * quarter, {-1.5, 0.5, 5}, {0, 0, -1}).front() == 5);
+}
+
+TEST_CASE("the planes of ends have the nearest sine and cosine of the angle") {
+  Random random(9);
+  const auto profile = profile_of({rectangle(1, 0, 2, 1)});
+  const auto check = [](double found, long double truth) {
+    const double ulp = std::nextafter(std::abs(found), HUGE_VAL) - std::abs(found);
+    REQUIRE(std::abs(static_cast<long double>(found) - truth) <= 0.501L * ulp);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const double angle = i == 0 ? 1 : random.uniform(1e-3, whole_turn - 1e-3);
+    const core::TurnedProfile turned(Revolution{.profile = profile, .angle = angle});
+    check(turned.normals[1].x, std::cos(static_cast<long double>(angle)));
+    check(turned.normals[1].z, -std::sin(static_cast<long double>(angle)));
+  }
 }
 
 TEST_CASE("a face that is flush with another solid's opens it") {

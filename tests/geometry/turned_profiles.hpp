@@ -6,6 +6,7 @@
 
 #include "crt/validate.hpp"
 #include "geometry/profiles.hpp"
+#include "geometry/torus_oracle.hpp"
 
 namespace crt::test {
 
@@ -45,6 +46,42 @@ inline double random_turn(Random& random) {
   if (random.one_in(3)) return 4 * quarter;
   if (random.one_in(3)) return quarter * static_cast<double>(1 + random.bits() % 4);
   return random.uniform(0.1, 4 * quarter);
+}
+
+/// Returns all parameters at which a line may cross what a piece makes, or its arc.
+inline std::vector<Real> wall_candidates(const Profile& profile, const Profile::Piece& piece,
+                                         const RealRay& ray) {
+  if (piece.arc != Profile::no_arc) {
+    const Profile::Arc& arc = profile.arcs()[piece.arc];
+    const RealVec center(0, arc.center.y, 0);
+    const Real ring = magnitude(arc.center.x);
+    if (ring == 0) {
+      const RealVec p = ray.origin - center;
+      return quadratic_roots(dot(ray.direction, ray.direction), dot(p, ray.direction),
+                             dot(p, p) - Real{arc.radius} * arc.radius);
+    }
+    return torus_candidates(ray, center, RealVec(0, 1, 0), ring, arc.radius);
+  }
+  const Real height = Real{piece.to.y} - piece.from.y;
+  const Real width = Real{piece.to.x} - piece.from.x;
+  if (height == 0) return plane_roots(ray, {0, 1, 0}, RealVec(piece.from));
+  // These are about the point closest to the middle of the piece, for fewer roundings.
+  const RealVec middle(0, (Real{piece.from.y} + piece.to.y) / 2, 0);
+  const Real closest = -dot(ray.origin - middle, ray.direction) / dot(ray.direction, ray.direction);
+  const RealVec p = ray.at(closest);
+  const RealVec& d = ray.direction;
+  const Real radius = height * piece.from.x + width * (p.y - piece.from.y);
+  const Real rate = width * d.y;
+  std::vector<Real> roots =
+      quadratic_roots(height * height * (d.x * d.x + d.z * d.z) - rate * rate,
+                      height * height * (p.x * d.x + p.z * d.z) - radius * rate,
+                      height * height * (p.x * p.x + p.z * p.z) - radius * radius);
+  for (Real& root : roots) root += closest;
+  return roots;
+}
+
+inline RealVec in_profile(const RealVec& p) {
+  return {square_root(p.x * p.x + p.z * p.z), p.y, 0};
 }
 
 }  // namespace crt::test

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/math/isolated_roots.hpp"
+
 namespace crt::core {
 namespace {
 
@@ -53,10 +55,10 @@ std::optional<RealRoot> RealRoot::near(const DyadicPolynomial& polynomial, const
 }
 
 std::optional<RealRoot> RealRoot::of_index(const DyadicPolynomial& polynomial, std::size_t index) {
-  const std::vector<Dyadic> separators = root_separators(polynomial);
-  if (separators.empty()) return std::nullopt;
-  const std::size_t before = std::min(index, separators.size() - 2);
-  return RealRoot(polynomial, separators[before], separators[before + 1]);
+  const IsolatedRoots roots = isolated_roots(polynomial);
+  if (roots.brackets.empty()) return std::nullopt;
+  const auto& [low, high] = roots.brackets[std::min(index, roots.brackets.size() - 1)];
+  return RealRoot(roots.polynomial, low, high);
 }
 
 bool RealRoot::is_at_root_of(const RealRoot& other) const {
@@ -133,7 +135,7 @@ int order(RealRoot& a, RealRoot& b) {
     return RealRoot::order_of_fractions(a, b);
   // Roots that are not very close differ by then. Only the others are worth the question whether
   // they are one.
-  constexpr int steps_before_asking = 8;
+  constexpr int steps_before_asking = 4;
   bool differ = false;
   for (int step = 0;; ++step) {
     const int a_to_b = compared(a.high_, b.low_);

@@ -73,6 +73,7 @@ void FieldSearch::search(double from, double to) {
   std::array<Range, most_open> open;
   std::size_t count = 0;
   open[count++] = {from, to, 0};
+  const double whole = to - from;
   while (count > 0 && !has_enough_) {
     const auto [low, high, sign] = open[--count];
     if (high <= limits_.first) continue;
@@ -95,7 +96,7 @@ void FieldSearch::search(double from, double to) {
       open[count++] = {middle, rest.to, 0};
       open[count++] = {rest.from, middle, 0};
     } else {
-      if (is_settled(values, high - low) || count + 3 > most_open) {
+      if (is_settled(values, high - low, shortest_part(whole)) || count + 3 > most_open) {
         leave_open(low, high, false);
         continue;
       }
@@ -109,12 +110,23 @@ void FieldSearch::search(double from, double to) {
   }
 }
 
-bool FieldSearch::is_settled(const FieldLine::Values& values, double length) const {
+// There are n squared of the shortest parts in the second share of n evaluations, and n / 4 in all
+// that follow. These take less than n / 2 evaluations, and the steps that narrow roots.
+double FieldSearch::shortest_part(double whole) const {
+  const double share = limits_.most_evaluations;
+  if (evaluations_ < share) return limits_.shortest;
+  const double parts = evaluations_ < 2 * share ? share * share : share / 4;
+  return std::max(limits_.shortest, whole / parts);
+}
+
+bool FieldSearch::is_settled(const FieldLine::Values& values, double length,
+                             double shortest) const {
   // Where rounding alone makes the sign at the middle unsure, halves get no surer.
   constexpr double roundings = 4;
   const bool is_noise = values.middle.contains(0) && !values.may_be_undefined &&
                         values.all.width() <= roundings * values.middle.width();
-  return is_noise || !(length > limits_.shortest) || evaluations_ >= limits_.most_evaluations;
+  constexpr std::uint32_t most_shares = 4;
+  return is_noise || !(length > shortest) || evaluations_ >= most_shares * limits_.most_evaluations;
 }
 
 FieldSearch::Rest FieldSearch::narrow(double from, double to, FieldLine::Values values) {
@@ -143,7 +155,7 @@ FieldSearch::Rest FieldSearch::narrow(double from, double to, FieldLine::Values 
     }
     constexpr double least_gain = 0.75;
     const bool gains = to - from <= least_gain * length;
-    const bool settled = is_settled(values, to - from);
+    const bool settled = is_settled(values, to - from, limits_.shortest);
     if (gains && !settled) {
       values = evaluate(from, to);
       if (values.is_monotone() && (values.slope.lo > 0) == is_rising) continue;

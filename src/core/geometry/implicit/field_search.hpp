@@ -7,6 +7,10 @@
 // on the other, it crosses there, and else it does not. So crossings alternate, whatever could not
 // be decided.
 //
+// The work goes from near to far. Where a hard part takes all that is allowed, what comes after it
+// is searched all the same, in parts that are less and less short. So a gap is no longer than a
+// small share of the line, unless all of it is hard.
+//
 // Source: Moore, Kearfott, Cloud, Introduction to interval analysis, 2009, chapter 8 (interval
 // Newton method).
 #pragma once
@@ -30,6 +34,7 @@ struct FieldRoot {
 
 /// Says how much a search may do, and when it has found enough.
 struct FieldSearchLimits {
+  /// After so many, only long parts are halved. At four times as many all are left as they are.
   std::uint32_t most_evaluations = 0;
   double shortest = 0;  ///< no part that is as short is halved
   /// Nothing is asked before this. What is found after it is the same without it, to the bit.
@@ -78,8 +83,10 @@ class FieldSearch {
 
  private:
   void leave_open(double from, double to, bool has_one_root);
-  /// Returns whether it is of no use to look at halves of a part.
-  bool is_settled(const FieldLine::Values& values, double length) const;
+  /// Returns the length of parts that are not halved. It grows with the work that was done.
+  double shortest_part(double whole) const;
+  /// Returns whether it is of no use to look at halves of a part, or too much work.
+  bool is_settled(const FieldLine::Values& values, double length, double shortest) const;
   /// A Rest is what is left of a part with at most one root. It may have to be halved, and what
   /// comes after it has a known sign, or 0 where nothing comes.
   struct Rest {

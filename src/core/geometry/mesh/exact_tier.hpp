@@ -24,7 +24,6 @@ class ExactMeshTier final : public MeshTier {
     return meeting.found();
   }
 
-  bool is_exact() const override { return true; }
 
   int order(const Crossing& first, const Crossing& second) const override {
     if (mesh_.are_in_one_plane(first.face, second.face)) return 0;
@@ -33,6 +32,8 @@ class ExactMeshTier final : public MeshTier {
     return core::order(ray_, first_plane, first_plane.meet(ray_), second_plane,
                        second_plane.meet(ray_));
   }
+
+  bool may_be_out_of_order() const override { return false; }
 
  private:
   const Triangles& mesh_;

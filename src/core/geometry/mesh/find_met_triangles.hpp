@@ -390,6 +390,7 @@ void MetTriangles<Triangles>::move_past_origin(Place met) {
 /// normals say nothing.
 template <class Triangles>
 typename MetTriangles<Triangles>::Place MetTriangles<Triangles>::put_behind(Place met) const {
+  if (!tier_.may_be_out_of_order()) return list_.end();
   if (!mesh_.is_oriented() || starts_on(met->face)) return list_.end();
   for (auto later = met + 1; later != list_.end(); ++later) {
     if (later->t - later->error > met->t + met->error) break;
@@ -399,7 +400,7 @@ typename MetTriangles<Triangles>::Place MetTriangles<Triangles>::put_behind(Plac
 }
 
 /// Makes the line enter and leave by turns. Where triangles nearly coincide, rounding may have put
-/// the end of a part before its begin. Such a part is left out, as is one of no length.
+/// the end of a part before its begin. Such a part is left out.
 template <class Triangles>
 void MetTriangles<Triangles>::take_turns() {
   bool inside = is_inside_at_begin();

@@ -27,8 +27,8 @@ class MeshTier {
   virtual bool meet(const Triangle& triangle, Crossing& crossing) const = 0;
   /// Returns the sign of the first t less the second, and 0 if they are equal.
   virtual int order(const Crossing& first, const Crossing& second) const = 0;
-  /// Returns whether this order is that of the line without rounding.
-  virtual bool is_exact() const = 0;
+  /// Returns whether rounding may have put crossings into another order than the true one.
+  virtual bool may_be_out_of_order() const = 0;
 };
 
 /// A StandardMeshTier meets planes in rounded arithmetic.
@@ -38,7 +38,7 @@ class StandardMeshTier final : public MeshTier {
 
   bool meet(const Triangle& triangle, Crossing& crossing) const override;
   int order(const Crossing& first, const Crossing& second) const override;
-  bool is_exact() const override { return false; }
+  bool may_be_out_of_order() const override { return true; }
 
  private:
   ObjectRay ray_;  ///< without where it starts

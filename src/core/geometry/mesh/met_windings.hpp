@@ -42,7 +42,7 @@ void MetTriangles<Triangles>::close_gaps() {
       const double reach =
           std::min(before.error, most_overlap_) + std::min(met->error, most_overlap_);
       if (!starts_on(before.face) && !starts_on(met->face) && met->t - before.t <= reach &&
-          !tier_.is_exact()) {
+          tier_.may_be_out_of_order()) {
         --kept;
         continue;
       }

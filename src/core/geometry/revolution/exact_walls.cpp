@@ -1,8 +1,10 @@
 #include "core/geometry/revolution/exact_walls.hpp"
 
-#include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "core/geometry/revolution/turned_walls.hpp"
+#include "core/math/isolated_roots.hpp"
 
 namespace crt::core {
 
@@ -15,13 +17,58 @@ DyadicPolynomial linear(const std::array<Dyadic, 2>& coefficients) {
   return DyadicPolynomial({coefficients[0], coefficients[1]});
 }
 
-/// Appends all roots of a polynomial. That of 0 has none.
-void append_roots(const DyadicPolynomial& polynomial, std::vector<RealRoot>& roots) {
-  if (polynomial.degree() < 1) return;
-  const std::vector<Dyadic> separators = root_separators(polynomial);
-  for (std::size_t i = 1; i < separators.size(); ++i) {
-    roots.emplace_back(polynomial, separators[i - 1], separators[i]);
+/// Returns all roots of a polynomial in order. That of 0 has none.
+std::vector<RealRoot> roots_of(const DyadicPolynomial& polynomial) {
+  if (polynomial.degree() < 1) return {};
+  const IsolatedRoots isolated = isolated_roots(polynomial);
+  std::vector<RealRoot> roots;
+  for (const auto& [low, high] : isolated.brackets) {
+    roots.emplace_back(isolated.polynomial, low, high);
   }
+  return roots;
+}
+
+/// A DividingPlace is where a line may cross a circle or its chord.
+struct DividingPlace {
+  RealRoot root;
+  std::optional<std::size_t> of_chord;  ///< the number of the chord's root, if it has one there
+};
+
+std::vector<DividingPlace> merged(std::vector<RealRoot> circle, std::vector<RealRoot> chord) {
+  std::vector<DividingPlace> places;
+  std::size_t next = 0;  // of the chord's roots
+  for (RealRoot& root : circle) {
+    int order_of_next = 1;
+    while (next < chord.size() && (order_of_next = order(chord[next], root)) < 0) {
+      places.push_back({chord[next], next});
+      ++next;
+    }
+    places.push_back({std::move(root), std::nullopt});
+    if (next < chord.size() && order_of_next == 0) places.back().of_chord = next++;
+  }
+  for (; next < chord.size(); ++next) places.push_back({chord[next], next});
+  return places;
+}
+
+/// Returns what has the root of a linear polynomial alone.
+ExactQuadratic quadratic_of(const Dyadic& constant, const Dyadic& rate) {
+  constexpr double half = 0.5;
+  return {Dyadic(), Dyadic(half) * rate, constant};
+}
+
+DoubleDouble quotient(const Dyadic& a, const Dyadic& b) {
+  return (a.rounded() / b.rounded()).unscaled();
+}
+
+/// Returns a root to about 100 bits. There must be one.
+DoubleDouble root_of(const ExactQuadratic& g, std::size_t number) {
+  if (g.a.sign() == 0) return quotient(-g.c, g.b + g.b);
+  return g.discriminant().sign() > 0 ? g.roots()[number] : quotient(-g.b, g.a);
+}
+
+/// Returns whether both neighbours of a line are not on one side of something.
+bool is_divided(ShiftMask mask) {
+  return mask != 0 && mask != both_shifts;
 }
 
 }  // namespace
@@ -64,7 +111,7 @@ int ExactWalls::slope_at(const ExactQuadratic& g, const Vec3& corner) const {
 ExactWalls::PieceCut ExactWalls::level_cut(const Profile::Piece& piece) const {
   PieceCut cut;
   if (climb_.sign() == 0) return cut;
-  cut.polynomial = linear({height_ - weight_ * Dyadic(piece.from.y), climb_});
+  cut.equation = quadratic_of(height_ - weight_ * Dyadic(piece.from.y), climb_);
   cut.shifts[0] = beyond(piece.from) ^ beyond(piece.to);
   cut.along_normal[0] = climb_.sign() > 0;
   return cut;
@@ -77,7 +124,7 @@ ExactWalls::PieceCut ExactWalls::cut(const Profile::Piece& piece) const {
   const Dyadic squared = square(height);
   const ExactQuadratic g{squared * q_.a - square(radius[1]), squared * q_.b - radius[1] * radius[0],
                          squared * q_.c - square(radius[0])};
-  PieceCut cut{.polynomial = g.polynomial(), .along_normal = {false, true}};
+  PieceCut cut{.equation = g, .along_normal = {false, true}};
   const int bend = g.a.sign();
   const int discriminant = g.discriminant().sign();
   const bool climbs = (piece.to.y > piece.from.y) == (climb_.sign() >= 0);
@@ -95,8 +142,9 @@ ExactWalls::PieceCut ExactWalls::cut(const Profile::Piece& piece) const {
   if (bend == 0 || discriminant == 0) {
     // A line along the side of a cone comes in and goes out through the apex.
     const Vec3& apex = piece.from.x == 0 ? piece.from : piece.to;
-    if (cut.polynomial.degree() < 0) {
-      cut.polynomial = linear({height_ - weight_ * Dyadic(apex.y), climb_});
+    if (bend == 0 && discriminant == 0 && g.c.sign() == 0) {
+      cut.equation = quadratic_of(height_ - weight_ * Dyadic(apex.y), climb_);
+      cut.apex = &apex;
     }
     cut.shifts[0] = falls | rises;
     cut.along_normal[0] = falls == 0;
@@ -170,51 +218,31 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
   const int up_is_left = climb_.sign() != 0 ? -height.sign() : width.sign();
   segment.left_if_along = up_is_left > 0 ? moved_up : complement(moved_up);
 
-  struct Place {
-    RealRoot root;
-    std::size_t of_chord;  ///< the number of the chord's root, or none
-  };
-  constexpr std::size_t none = 2;
-  std::vector<Place> places;
-  std::vector<RealRoot> roots;
-  append_roots(segment.boundary(), roots);
-  places.reserve(roots.size());
-  for (RealRoot& root : roots) places.push_back({std::move(root), none});
-  roots.clear();
-  append_roots(piece_cut.polynomial, roots);
-  for (std::size_t i = 0; i < roots.size(); ++i) places.push_back({std::move(roots[i]), i});
-  std::sort(places.begin(), places.end(),
-            [](Place& a, Place& b) { return order(a.root, b.root) < 0; });
+  std::vector<DividingPlace> places =
+      merged(roots_of(segment.boundary()), roots_of(piece_cut.equation.polynomial()));
 
   bool was_in_disc = false;
   ShiftMask was_inside = 0;
   std::uint8_t disc_roots = 0;
-  for (auto here = places.begin(); here != places.end();) {
-    auto end = here + 1;
-    while (end != places.end() && order(here->root, end->root) == 0) ++end;
-    const Dyadic next = end != places.end() ? RealRoot::between((end - 1)->root, end->root)
-                                            : (end - 1)->root.above();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    auto& [root, of_chord] = places[i];
+    const Dyadic next =
+        i + 1 < places.size() ? RealRoot::between(root, places[i + 1].root) : root.above();
     const bool in_disc = segment.is_in_disc(next);
     const ShiftMask inside = in_disc ? segment.beyond_chord(next) : 0U;
     ShiftMask shifts = was_inside ^ inside;
-    std::size_t of_chord = none;
-    for (auto place = here; place != end; ++place) {
-      if (place->of_chord == none) continue;
-      of_chord = place->of_chord;
-      shifts ^= piece_cut.shifts[of_chord];
-    }
+    if (of_chord) shifts ^= piece_cut.shifts[*of_chord];
     const bool crosses_disc = in_disc != was_in_disc;
     if (shifts != 0 && crosses_disc) {
-      walls.push_back({here->root, arc.piece, disc_roots, shifts, !in_disc});
-    } else if (shifts != 0 && of_chord != none) {
-      walls.push_back({here->root, profile_.chord_of(chord.arc),
-                       static_cast<std::uint8_t>(of_chord), shifts,
-                       piece_cut.along_normal[of_chord]});
+      walls.push_back({root.rounded(), arc.piece, disc_roots, shifts, !in_disc});
+    } else if (shifts != 0 && of_chord) {
+      walls.push_back({root.rounded(), profile_.chord_of(chord.arc),
+                       static_cast<std::uint8_t>(*of_chord), shifts,
+                       piece_cut.along_normal[*of_chord]});
     }
     if (crosses_disc) ++disc_roots;
     was_in_disc = in_disc;
     was_inside = inside;
-    here = end;
   }
 }
 
@@ -222,14 +250,38 @@ void ExactWalls::meet(std::uint32_t number, std::vector<ExactWall>& walls) const
   const Profile::Piece& piece = profile_.pieces()[number];
   if (piece.arc != Profile::no_arc) return meet_arc(profile_.arcs()[piece.arc], walls);
   const PieceCut piece_cut = cut(piece);
-  if ((piece_cut.shifts[0] | piece_cut.shifts[1]) == 0) return;
-  std::vector<RealRoot> roots;
-  append_roots(piece_cut.polynomial, roots);
-  for (std::size_t i = 0; i < std::min<std::size_t>(roots.size(), 2); ++i) {
-    if (piece_cut.shifts[i] == 0) continue;
-    walls.push_back({std::move(roots[i]), number, static_cast<std::uint8_t>(i), piece_cut.shifts[i],
-                     piece_cut.along_normal[i]});
+  for (std::size_t i = 0; i < piece_cut.shifts.size(); ++i) {
+    const ShiftMask shifts = piece_cut.shifts[i];
+    if (shifts == 0) continue;
+    ExactWall wall{.wall = number,
+                   .root = static_cast<std::uint8_t>(i),
+                   .shifts = shifts,
+                   .along_normal = piece_cut.along_normal[i]};
+    if (is_divided(shifts)) {
+      place_at(piece_cut.apex ? *piece_cut.apex : crossed_corner(piece, i), i, wall);
+    } else {
+      wall.t = root_of(piece_cut.equation, i);
+    }
+    walls.push_back(wall);
   }
+}
+
+const Vec3& ExactWalls::crossed_corner(const Profile::Piece& piece, std::size_t root) const {
+  const bool passes_from = is_divided(beyond(piece.from));
+  if (!passes_from || !is_divided(beyond(piece.to))) return passes_from ? piece.from : piece.to;
+  const bool climbs = (piece.to.y > piece.from.y) == (climb_.sign() > 0);
+  return climbs == (root == 0) ? piece.from : piece.to;
+}
+
+void ExactWalls::place_at(const Vec3& corner, std::size_t root, ExactWall& wall) const {
+  wall.corner.is_known = true;
+  if (climb_.sign() != 0) {
+    wall.t = quotient(weight_ * Dyadic(corner.y) - height_, climb_);
+    wall.corner.order = climb_.sign() > 0 ? corner.y : -corner.y;
+    return;
+  }
+  wall.t = root_of({q_.a, q_.b, q_.c - square(weight_ * Dyadic(corner.x))}, root);
+  wall.corner.order = root == 0 ? -corner.x : corner.x;
 }
 
 }  // namespace crt::core

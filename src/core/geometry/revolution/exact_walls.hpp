@@ -9,8 +9,9 @@
 //
 // A straight piece is crossed where g = dy^2 q - (dy x(y))^2 changes its sign, between its corners.
 // How often that is follows from the signs of g at the corners, which neighbours share, and from
-// where g is lowest. An arc bounds the part of a disc beyond the straight line through its corners.
-// Whether a line is in it is asked of points between all roots of both equations.
+// where g is lowest. Where only one of both lines crosses a piece, that is at a corner, whose place
+// and order need no root. An arc bounds the part of a disc beyond the straight line through its
+// corners. Whether a line is in it is asked of points between all roots of both equations.
 #pragma once
 
 #include <vector>
@@ -22,13 +23,21 @@
 
 namespace crt::core {
 
+/// A PassedCorner is where a line passes exactly through a corner. `order` is the corner's height,
+/// or its distance from the axis if the line is level: with the sign that makes it ascend with t.
+struct PassedCorner {
+  bool is_known = false;
+  double order = 0;
+};
+
 /// An ExactWall is a crossing of the line with a wall.
 struct ExactWall {
-  RealRoot place;
+  DoubleDouble t{};  ///< to about 100 bits
   std::uint32_t wall = 0;
   std::uint8_t root = 0;  ///< as in Crossing
   ShiftMask shifts = 0;   ///< the lines that cross it
   bool along_normal = false;
+  PassedCorner corner{};
 };
 
 class ExactWalls {
@@ -41,9 +50,10 @@ class ExactWalls {
  private:
   /// A PieceCut says where the line crosses a straight piece.
   struct PieceCut {
-    DyadicPolynomial polynomial;        ///< its roots are the places
+    ExactQuadratic equation;            ///< its roots are the places
     std::array<ShiftMask, 2> shifts{};  ///< by the number of the root
     std::array<bool, 2> along_normal{};
+    const Vec3* apex = nullptr;  ///< where a line along a cone crosses the piece, if anywhere
   };
   /// A Segment is what of an arc's disc is beyond the line through its corners.
   struct Segment;
@@ -56,6 +66,10 @@ class ExactWalls {
   std::array<Dyadic, 2> radius_times_height(const Profile::Piece& piece) const;
   PieceCut cut(const Profile::Piece& piece) const;
   PieceCut level_cut(const Profile::Piece& piece) const;
+  /// Returns the corner of a piece where the line, and not both of its neighbours, crosses it.
+  const Vec3& crossed_corner(const Profile::Piece& piece, std::size_t root) const;
+  /// Says where the line is at a corner that it passes.
+  void place_at(const Vec3& corner, std::size_t root, ExactWall& wall) const;
   /// Returns the sign of g' where the line is at the height of a corner.
   int slope_at(const ExactQuadratic& g, const Vec3& corner) const;
   void meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls) const;

@@ -36,7 +36,10 @@ class StandardTier final : public RevolutionTier {
 
   void place(const DoubleDouble& t, Crossing& crossing) const override {
     constexpr double last_rounding = 1 + 0x1p-40;
-    crossing.t = t.hi;
+    // Without its last bits the low part cannot round one place to two doubles.
+    constexpr double coarsely = 0x1.8p-40;
+    const double coarse = coarsely * power_of_two_below(std::abs(t.hi));
+    crossing.t = t.hi + ((t.lo + coarse) - coarse);
     crossing.error = rounding_of(t.hi) * last_rounding;
   }
 

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <crt/elementary.hpp>
 #include <limits>
@@ -21,21 +22,12 @@ struct Direction {
 /// as near as doubles have it, is exact.
 Direction direction_at(double angle) {
   int quarters = 0;
-  double rest = std::remquo(angle, half_turn / 2, &quarters);
   constexpr double rounding = 0x1p-50;
-  if (std::abs(rest) <= rounding) rest = 0;
-  const double sine = elementary::sin(rest);
-  const double cosine = elementary::cos(rest);
-  switch (quarters & 3) {
-    case 1:
-      return {-sine, cosine};
-    case 2:
-      return {-cosine, -sine};
-    case 3:
-      return {sine, -cosine};
-    default:
-      return {cosine, sine};
+  if (std::abs(std::remquo(angle, half_turn / 2, &quarters)) > rounding) {
+    return {elementary::cos(angle), elementary::sin(angle)};
   }
+  constexpr std::array<Direction, 4> axes = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  return axes[static_cast<std::size_t>(quarters & 3)];
 }
 
 }  // namespace

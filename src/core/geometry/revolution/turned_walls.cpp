@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/geometry/order_of_places.hpp"
@@ -24,7 +25,16 @@ struct TurnedWall {
   Crossing crossing;
   ShiftMask shifts = 0;  ///< the lines that cross a wall; none for an end
   bool along_normal = false;
+  std::uint32_t surface = 0;  ///< the body that stands for all walls on its surface
+  PassedCorner corner = {};
   std::uint32_t place = 0;  ///< counts the places along the line
+
+  /// Returns whether both are one crossing of one surface. A line crosses a torus twice in the same
+  /// sense, and all other surfaces once.
+  bool is_one_with(const TurnedWall& other) const {
+    return surface == other.surface && along_normal == other.along_normal &&
+           crossing.root / 2 == other.crossing.root / 2;
+  }
 };
 
 /// A PlaceInProfile is where a point of a line is in the profile, relative to a corner's height.
@@ -65,7 +75,8 @@ class TurnedWalls {
   bool is_at_start(const Crossing& crossing) const {
     return ray_.start.face != no_face && crossing.t == 0 && crossing.error == 0;
   }
-  void add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts, bool along_normal);
+  TurnedWall& add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts,
+                  bool along_normal);
   bool are_even() const;
   bool passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const;
   bool meet_wall(std::uint32_t number);
@@ -73,9 +84,10 @@ class TurnedWalls {
   std::optional<bool> is_in_wall(const Profile::Piece& piece, const Crossing& crossing) const;
   PlaceInProfile place_of(const Profile::Piece& piece, const Crossing& crossing) const;
   void meet_ends();
-  void meet_exactly();
+  void meet_exactly(std::span<const std::uint32_t> pieces);
+  void unify();
   void give_start(std::uint32_t wall, Crossing& crossing);
-  int order(const Crossing& a, const Crossing& b) const;
+  int order(const TurnedWall& a, const TurnedWall& b) const;
   void sort_by_place();
   void append_parts();
   void drop_if_endless();
@@ -93,7 +105,8 @@ class TurnedWalls {
   std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
   Walls walls_{&memory_};
   std::pmr::vector<std::uint32_t> candidates_{&memory_};
-  CrossingList met_;  ///< of one body
+  std::pmr::vector<std::uint32_t> open_{&memory_};  ///< candidates that take exact arithmetic
+  CrossingList met_;                                ///< of one body
   std::array<bool, end_count> is_behind_{};
   double largest_error_ = 0;
   std::uint8_t root_at_start_ = 0;
@@ -102,40 +115,48 @@ class TurnedWalls {
 void TurnedWalls::append() {
   const CandidateSearch search(turned_, ray_);
   if (search.misses()) return;
-  bool is_plain = true;
-  search.each(profile_.tree(), [&](std::uint32_t piece) {
-    candidates_.push_back(piece);
-    is_plain = is_plain && !passes_corner(search, profile_.pieces()[piece]);
+  search.each(profile_.tree(), [&](std::uint32_t number) {
+    const Profile::Piece& piece = profile_.pieces()[number];
+    const bool is_boundary = piece.arc != Profile::no_arc || !TurnedProfile::is_on_axis(piece);
+    if (is_boundary) candidates_.push_back(number);
   });
   if (candidates_.empty()) return;
-  is_plain = is_plain && std::all_of(candidates_.begin(), candidates_.end(),
-                                     [this](std::uint32_t piece) { return meet_wall(piece); });
-  if (!is_plain || !are_even()) {
-    walls_.clear();
-    meet_exactly();
+  for (const std::uint32_t piece : candidates_) {
+    const std::size_t before = walls_.size();
+    if (!passes_corner(search, profile_.pieces()[piece]) && meet_wall(piece)) continue;
+    walls_.resize(before);
+    open_.push_back(piece);
   }
+  meet_exactly(open_);
+  if (!are_even() && open_.size() < candidates_.size()) {
+    walls_.clear();
+    meet_exactly(candidates_);
+  }
+  unify();
   meet_ends();
   sort_by_place();
   append_parts();
 }
 
-void TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts,
-                      bool along_normal) {
-  walls_.push_back({crossing, shifts, along_normal});
+TurnedWall& TurnedWalls::add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts,
+                             bool along_normal) {
+  walls_.push_back({crossing, shifts, along_normal, turned_.body_of_surface(face)});
   walls_.back().crossing.face = face;
   if (is_at_start(crossing)) root_at_start_ = crossing.root;
   largest_error_ = std::max(largest_error_, crossing.error);
+  return walls_.back();
 }
 
-/// Returns whether the line passes a corner of a piece in a way that the number of crossings may
-/// not show. A line that is nearly across the axis does so twice. It may pass between the corner
-/// that an arc has and its circle, too, and cross its chord there.
+/// Returns whether the line passes a corner of a piece so near that only exact arithmetic says
+/// which walls it crosses there. It may touch them in the corner alone, along a wall, and see
+/// nothing of that. It may pass between the corner that an arc has and its circle, too, and cross
+/// its chord there.
 bool TurnedWalls::passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const {
+  const double gap = piece.arc == Profile::no_arc ? 0
+                                                  : profile_.arcs()[piece.arc].margin *
+                                                        largest_component(piece.to - piece.from);
   const auto passes = [&](const Vec3& corner) {
-    if (search.is_along(corner)) return true;
-    if (piece.arc == Profile::no_arc) return false;
-    const double gap = profile_.arcs()[piece.arc].margin * largest_component(piece.to - piece.from);
-    return search.comes_near(Bounds{corner, corner}.grown(gap));
+    return search.is_along(corner) || search.comes_near(Bounds{corner, corner}.grown(gap));
   };
   return passes(piece.from) || passes(piece.to);
 }
@@ -150,7 +171,6 @@ bool TurnedWalls::are_even() const {
 /// Finds the crossings with a piece, or with its arc. Returns false if rounding leaves them open.
 bool TurnedWalls::meet_wall(std::uint32_t number) {
   const Profile::Piece& piece = profile_.pieces()[number];
-  if (piece.arc == Profile::no_arc && TurnedProfile::is_on_axis(piece)) return true;
   const std::uint32_t body = end_count + number;
   const FaceStart start = turned_.start_on(body, ray_.start);
   met_.clear();
@@ -233,24 +253,46 @@ void TurnedWalls::give_start(std::uint32_t wall, Crossing& crossing) {
   }
 }
 
-/// Finds the crossings with all walls without rounding.
-void TurnedWalls::meet_exactly() {
+/// Finds the crossings with some pieces and their arcs without rounding.
+void TurnedWalls::meet_exactly(std::span<const std::uint32_t> pieces) {
+  if (pieces.empty()) return;
   const ExactWalls exact(profile_, tier_.exact());
   std::vector<ExactWall> crossed;
-  for (const std::uint32_t piece : candidates_) exact.meet(piece, crossed);
-  for (ExactWall& wall : crossed) {
+  for (const std::uint32_t piece : pieces) exact.meet(piece, crossed);
+  for (const ExactWall& wall : crossed) {
     const std::uint32_t face = face_of_wall(wall.wall, false);
     Crossing crossing{.face = face, .root = wall.root};
-    tier_.place(wall.place.rounded(), crossing);
+    tier_.place(wall.t, crossing);
     if (starts_on(face)) give_start(wall.wall, crossing);
-    add(crossing, face, wall.shifts, wall.along_normal);
+    add(crossing, face, wall.shifts, wall.along_normal).corner = wall.corner;
   }
 }
 
-int TurnedWalls::order(const Crossing& a, const Crossing& b) const {
+/// Gives walls on one surface, which the line crosses at once, one t: that which is known best.
+void TurnedWalls::unify() {
+  for (std::size_t i = 1; i < walls_.size(); ++i) {
+    const Crossing& last = walls_[i].crossing;
+    const auto others = std::span(walls_).first(i);
+    const auto same = [&](const TurnedWall& wall) { return wall.is_one_with(walls_[i]); };
+    const auto found = std::find_if(others.begin(), others.end(), same);
+    if (found == others.end()) continue;
+    const Crossing best = last.error < found->crossing.error ? last : found->crossing;
+    for (TurnedWall& wall : std::span(walls_).first(i + 1)) {
+      if (!same(wall)) continue;
+      wall.crossing.t = best.t;
+      wall.crossing.t_low = best.t_low;
+      wall.crossing.error = best.error;
+    }
+  }
+}
+
+int TurnedWalls::order(const TurnedWall& a, const TurnedWall& b) const {
   return order_of_places(
-      a, b, [this](std::uint32_t face) { return starts_on(face); },
-      [this](const Crossing& one, const Crossing& other) {
+      a.crossing, b.crossing, [this](std::uint32_t face) { return starts_on(face); },
+      [&](const Crossing& one, const Crossing& other) {
+        if (a.corner.is_known && b.corner.is_known) {
+          return a.corner.order < b.corner.order ? -1 : (a.corner.order > b.corner.order ? 1 : 0);
+        }
         const bool are_ends = one.face < end_count && other.face < end_count;
         if (!are_ends || one.face == other.face) return tier_.order(one, other);
         const int by_first = order_of_ends(tier_.exact(), turned_.normals);
@@ -260,11 +302,11 @@ int TurnedWalls::order(const Crossing& a, const Crossing& b) const {
 
 void TurnedWalls::sort_by_place() {
   std::sort(walls_.begin(), walls_.end(), [this](const TurnedWall& a, const TurnedWall& b) {
-    const int by_place = order(a.crossing, b.crossing);
+    const int by_place = order(a, b);
     return by_place != 0 ? by_place < 0 : a.crossing.face < b.crossing.face;
   });
   for (std::size_t i = 1; i < walls_.size(); ++i) {
-    const bool is_same = order(walls_[i - 1].crossing, walls_[i].crossing) == 0;
+    const bool is_same = order(walls_[i - 1], walls_[i]) == 0;
     walls_[i].place = walls_[i - 1].place + (is_same ? 0 : 1);
   }
 }

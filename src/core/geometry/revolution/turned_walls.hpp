@@ -4,8 +4,8 @@
 // Each wall is a part of the boundary of a body, which is another primitive: of a plane, a cone, a
 // cylinder, a sphere or a torus. So where a line crosses it is known from there, to the same bits.
 // Whether it is in the part of the wall follows from its height and its distance from the axis.
-// Where rounding leaves that open of one wall, or where a line seems to cross an odd number of
-// them, all is decided without rounding (exact_walls.hpp).
+// Where rounding leaves that open, or where a line passes a corner, the walls beside are decided
+// without rounding (exact_walls.hpp), and all of them if it then seems to cross an odd number.
 #pragma once
 
 #include <cmath>

@@ -15,7 +15,7 @@
 #include "core/geometry/near_line.hpp"
 #include "core/geometry/torus/spans.hpp"
 #include "core/geometry/torus/torus.hpp"
-#include "core/math/dyadic_polynomial.hpp"
+#include "core/math/isolated_roots.hpp"
 #include "core/math/precise_transform.hpp"
 
 namespace crt::core {
@@ -42,9 +42,10 @@ class ExactTorusLine {
   /// Appends all crossings.
   void append(CrossingList& out) const {
     std::uint8_t root = 0;
-    each_crossing([&](const Dyadic& low, const Dyadic& high, bool entering) {
+    each_crossing([&](const DyadicPolynomial& polynomial, const Dyadic& low, const Dyadic& high,
+                      bool entering) {
       Crossing crossing{.root = root++, .entering = entering};
-      refine(low, high, crossing);
+      refine(polynomial, low, high, crossing);
       if (std::isfinite(crossing.t)) out.push_back(crossing);
     });
   }
@@ -55,8 +56,9 @@ class ExactTorusLine {
         RealRoot::near(quartic_, DoubleDouble(crossing.t, crossing.t_low), crossing.error);
     std::uint8_t root = 0;
     if (place) return place;
-    each_crossing([&](const Dyadic& low, const Dyadic& high, bool /*entering*/) {
-      if (root++ == crossing.root) place = RealRoot(quartic_, low, high);
+    each_crossing([&](const DyadicPolynomial& polynomial, const Dyadic& low, const Dyadic& high,
+                      bool /*entering*/) {
+      if (root++ == crossing.root) place = RealRoot(polynomial, low, high);
     });
     return place;
   }
@@ -71,7 +73,7 @@ class ExactTorusLine {
       const Dyadic low = Dyadic(x) - Dyadic(width);
       const Dyadic high = Dyadic(x) + Dyadic(width);
       if (is_inside(low) == crossing.entering || is_inside(high) != crossing.entering) continue;
-      refine(low, high, crossing);
+      refine(quartic_, low, high, crossing);
       return std::isfinite(crossing.t);
     }
     return false;
@@ -102,16 +104,16 @@ class ExactTorusLine {
     quartic_ = squared_axis * (sum_ * sum_) - Dyadic(4) * square(ring) * squared_rho;
   }
 
-  /// Calls take(low, high, entering) for each crossing, which is the only root between low and
-  /// high.
+  /// Calls take(polynomial, low, high, entering) for each crossing, which is the only root of a
+  /// polynomial between low and high.
   template <class Take>
   void each_crossing(const Take& take) const {
-    const std::vector<Dyadic> separators = root_separators(quartic_);
+    const IsolatedRoots roots = isolated_roots(quartic_);
     bool inside = false;
-    for (std::size_t i = 1; i < separators.size(); ++i) {
-      if (is_inside(separators[i]) == inside) continue;
+    for (const auto& [low, high] : roots.brackets) {
+      if (is_inside(high) == inside) continue;
       inside = !inside;
-      take(separators[i - 1], separators[i], inside);
+      take(roots.polynomial, low, high, inside);
     }
   }
 
@@ -121,8 +123,9 @@ class ExactTorusLine {
     return is_lemon_ ? sum < 0 && product > 0 : sum < 0 || product < 0;
   }
 
-  void refine(const Dyadic& low, const Dyadic& high, Crossing& crossing) const {
-    const Dyadic x = refined_root(quartic_, low, high, offset_, [&](const Dyadic& place) {
+  void refine(const DyadicPolynomial& polynomial, const Dyadic& low, const Dyadic& high,
+              Crossing& crossing) const {
+    const Dyadic x = refined_root(polynomial, low, high, offset_, [&](const Dyadic& place) {
       return is_inside(place) == crossing.entering;
     });
     crossing = exact_crossing((Dyadic(scale_) * (x + offset_)).rounded().unscaled(), crossing);
