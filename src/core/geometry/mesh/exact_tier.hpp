@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/geometry/exact_plane.hpp"
+#include "core/geometry/exact_shape.hpp"
 #include "core/geometry/mesh/met_triangles.hpp"
 
 namespace crt::core {
@@ -22,6 +23,10 @@ class ExactMeshTier final : public MeshTier {
     crossing.t_low = meeting.t.lo;
     crossing.error = meeting.error;
     return meeting.found();
+  }
+
+  void place(const DoubleDouble& t, Crossing& crossing) const override {
+    crossing = exact_crossing(t, crossing);
   }
 
   int order(const Crossing& first, const Crossing& second) const override {
