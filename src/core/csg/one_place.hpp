@@ -10,7 +10,7 @@
 //    error as long as the solid, which says nothing of what else is there. Then t decides.
 //
 // In the exact tier the reach is the error alone: there a gap is a gap (exact_order.hpp).
-// Tests: tests/csg/one_place_test.cpp
+// Tests: tests/csg/one_place_test.cpp, tests/csg/along_surfaces_test.cpp
 #pragma once
 
 #include <algorithm>
