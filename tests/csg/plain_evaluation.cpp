@@ -49,7 +49,9 @@ class Plain {
     if (leaf.bounds.empty()) return;
     const core::LineSpan span =
         core::RaySlabs(ray_.origin, ray_.direction, ray_.start.t_error).span(leaf.bounds);
-    if (span.empty() || span.leave < ray_.t_min - ray_.start.t_error || span.enter > ray_.t_max)
+    const double farthest =
+        ray_.t_max + core::coincidence_tolerance(ray_, std::min(ray_.t_max, 0x1p900), 0);
+    if (span.empty() || span.leave < ray_.t_min - ray_.start.t_error || span.enter > farthest)
       return;
     core::ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
     object_ray.start =
@@ -86,16 +88,40 @@ class Plain {
     }
   }
 
+  double reach(const CsgCrossing& crossing) const {
+    return core::reach_of_place(leaf(crossing.leaf), ray_,
+                                {.t = crossing.t,
+                                 .error = crossing.error,
+                                 .face = crossing.face,
+                                 .root = crossing.root,
+                                 .entering = crossing.entering});
+  }
+
+  /// Returns whether a crossing is at the place of the first and of all between.
+  bool coincides_with_all(std::size_t number) const {
+    const CsgCrossing& first = crossings_.front();
+    const CsgCrossing& other = crossings_[number];
+    const double tolerance = core::coincidence_tolerance(ray_, first.t, first.error);
+    const double gap = core::gap_between(first, other);
+    if (gap > std::max(tolerance, first.error + other.error)) return false;
+    if (other.enter > first.t + tolerance) return false;
+    double from = gap - reach(other);
+    double to = gap + reach(other);
+    for (std::size_t i = 0; i < number; ++i) {
+      const CsgCrossing& member = crossings_[i];
+      from = std::max(from, core::gap_between(first, member) - reach(member));
+      to = std::min(to, core::gap_between(first, member) + reach(member));
+      const double own_reach = core::reach_in_leaf(member.t, member.error, reach(member)) +
+                               core::reach_in_leaf(other.t, other.error, reach(other));
+      if (member.leaf == other.leaf && core::gap_between(member, other) > own_reach) return false;
+    }
+    return gap == 0 || from <= to;
+  }
+
   /// Takes the first crossing and what coincides with it, and lets the leaves pass.
   std::vector<CsgCrossing> take_cluster() {
-    const CsgCrossing first = crossings_.front();
     std::size_t end = 1;
-    while (end < crossings_.size()) {
-      const CsgCrossing& other = crossings_[end];
-      const double distance = (other.t - first.t) + (other.t_low - first.t_low);
-      if (!(distance <= first.error + other.error && other.enter <= first.t + first.error)) break;
-      ++end;
-    }
+    while (end < crossings_.size() && coincides_with_all(end)) ++end;
     std::vector<CsgCrossing> cluster(crossings_.begin(),
                                      crossings_.begin() + static_cast<std::ptrdiff_t>(end));
     std::vector<CsgCrossing> rest;

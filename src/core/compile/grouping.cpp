@@ -5,6 +5,8 @@
 
 #include "core/csg/placement.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/math/vector.hpp"
+#include "core/ray/coincidence_tolerance.hpp"
 #include "core/tasks/parallel.hpp"
 
 namespace crt::core {
@@ -104,6 +106,13 @@ class Grouping {
   std::vector<Extent> extents_;
 };
 
+/// Returns a box that holds all that may be at one place with something in a box.
+Bounds with_place(const Bounds& box) {
+  if (!box.finite()) return box;
+  const double size = largest_component(box.upper - box.lower) + box.farthest();
+  return box.grown(2 * roundings_of_place * unit_roundoff * size);
+}
+
 }  // namespace
 
 Bounds part_bounds(const Part& part) {
@@ -135,7 +144,8 @@ std::vector<std::size_t> disjoint_groups(std::vector<Part>& parts,
   std::vector<Bounds> bounds(parts.size());
   for_ranges(parts.size(), items_for_a_thread / 4, workers,
              [&](std::size_t begin, std::size_t end) {
-               for (std::size_t i = begin; i < end; ++i) bounds[i] = bounds_of(parts[i]);
+               for (std::size_t i = begin; i < end; ++i)
+                 bounds[i] = with_place(bounds_of(parts[i]));
              });
   Grouping grouping(bounds, workers);
   std::vector<Part> grouped;

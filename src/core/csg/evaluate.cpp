@@ -12,16 +12,17 @@ namespace {
 /// A line has at most this many crossings with one surface, as with a torus.
 constexpr std::size_t most_roots = 4;
 
+/// A crossing looks for others of its leaf among so many before it, so that a place of very many
+/// costs no more than their number.
+constexpr std::size_t most_looked_at = 64;
+
+/// The tolerance of what coincides has a finite value up to here.
+constexpr double finite_t = 0x1p900;
+
 /// This orders a heap that has the nearest on top.
 constexpr auto is_opened_later = [](const auto& a, const auto& b) {
   return a.enter != b.enter ? a.enter > b.enter : b.child < a.child;
 };
-
-bool coincides(const CsgCrossing& first, const CsgCrossing& other) {
-  if (first.place != 0) return other.place == first.place;
-  const double distance = (other.t - first.t) + (other.t_low - first.t_low);
-  return distance <= first.error + other.error && other.enter <= first.t + first.error;
-}
 
 }  // namespace
 
@@ -37,7 +38,8 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
       frame_(frame),
       slabs_(frame != nullptr ? frame->slabs(ray)
                               : RaySlabs(ray.origin, ray.direction, ray.start.t_error)),
-      part_{ray.t_min - ray.start.t_error, ray.t_max},
+      part_{ray.t_min - ray.start.t_error,
+            ray.t_max + coincidence_tolerance(ray, std::min(ray.t_max, finite_t), 0)},
       first_stamp_(++workspace.stamp_),
       exact_(leaves_[0].exact != nullptr),
       first_is_enough_(first_is_enough) {
@@ -149,7 +151,7 @@ void CsgEvaluation::open_what_may_coincide() {
   while (!work_.openings_.empty()) {
     const CsgCrossing& first = next_crossing();
     const double next_enter = work_.openings_.front().enter;
-    if (next_enter <= first.t + first.error) {
+    if (next_enter <= first.t + tolerance(first)) {
       open_up_to(next_enter);
     } else if (work_.pieces_.empty() || !open_pieces_between()) {
       return;
@@ -254,7 +256,7 @@ bool CsgEvaluation::open_pieces_between() {
   double last = -infinity;
   for (const CsgWorkspace::ToCome& waiting : work_.to_come_) {
     const CsgCrossing& crossing = work_.met_[waiting.index];
-    if (&crossing != &first && coincides(first, crossing)) last = std::max(last, crossing.t);
+    if (&crossing != &first && is_near(first, crossing)) last = std::max(last, crossing.t);
   }
   const auto piece = std::find_if(work_.pieces_.begin(), work_.pieces_.end(),
                                   [&](const auto& other) { return other.beyond <= last; });
@@ -268,16 +270,60 @@ void CsgEvaluation::gather_cluster() {
   auto& cluster = work_.cluster_;
   cluster.clear();
   ++work_.stamp_;
+  CsgCrossing& first = next_crossing();
+  std::optional<CommonPlace> place;
+  const auto has_next = [&] {
+    if (to_come.empty() || !is_near(first, next_crossing())) return false;
+    if (!place) place.emplace(reach(first));
+    return coincides(first, next_crossing(), *place);
+  };
   do {
     add_to_cluster(next_crossing());
     std::pop_heap(to_come.begin(), to_come.end(), later());
     to_come.pop_back();
-  } while (!to_come.empty() && coincides(*cluster.front(), next_crossing()));
+  } while (has_next());
   const bool some_to_come =
       std::any_of(cluster.begin(), cluster.end(), [&](const CsgCrossing* crossing) {
         return crossing->shared != FaceSurface::not_shared && shared_state(*crossing).to_come > 0;
       });
   if (some_to_come) gather_shared();
+}
+
+bool CsgEvaluation::is_near(const CsgCrossing& first, const CsgCrossing& other) const {
+  if (first.place != 0) return other.place == first.place;
+  const double tolerance = this->tolerance(first);
+  return gap_between(first, other) <= std::max(tolerance, first.error + other.error) &&
+         other.enter <= first.t + tolerance;
+}
+
+double CsgEvaluation::reach(CsgCrossing& crossing) const {
+  if (crossing.reach < 0) {
+    crossing.reach = reach_of_place(placed(leaves_[crossing.leaf]), ray_,
+                                    {.t = crossing.t,
+                                     .error = crossing.error,
+                                     .face = crossing.face,
+                                     .root = crossing.root,
+                                     .entering = crossing.entering});
+  }
+  return crossing.reach;
+}
+
+bool CsgEvaluation::coincides(const CsgCrossing& first, CsgCrossing& next,
+                              CommonPlace& place) const {
+  if (first.place != 0) return true;
+  // How long the line is in a leaf is known better than where.
+  const auto own_reach = [&](const CsgCrossing& crossing) {
+    return reach_in_leaf(crossing.t, crossing.error, crossing.reach);
+  };
+  next.reach = reach(next);
+  const auto is_beyond_own = [&](const CsgCrossing* other) {
+    return other->leaf == next.leaf &&
+           gap_between(*other, next) > own_reach(*other) + own_reach(next);
+  };
+  const auto& cluster = work_.cluster_;
+  const auto looked_at = static_cast<std::ptrdiff_t>(std::min(cluster.size(), most_looked_at));
+  if (std::any_of(cluster.end() - looked_at, cluster.end(), is_beyond_own)) return false;
+  return place.take(gap_between(first, next), next.reach);
 }
 
 void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {

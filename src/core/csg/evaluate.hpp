@@ -10,6 +10,7 @@
 
 #include "core/csg/exact_order.hpp"
 #include "core/csg/instance.hpp"
+#include "core/csg/one_place.hpp"
 #include "core/csg/program.hpp"
 #include "core/csg/ray_steps.hpp"
 #include "core/ray/world_ray.hpp"
@@ -27,6 +28,7 @@ struct CsgCrossing {
   std::uint32_t surface = 0;
   std::uint8_t root = 0;
   bool entering = false;  ///< the primitive, whether or not it is complemented
+  double reach = -1;      ///< of its place (one_place.hpp), once it has been asked for
   std::uint32_t shared =
       FaceSurface::not_shared;  ///< the number of its surface, if it is another leaf's too
   std::uint32_t place = 0;      ///< if not 0: exactly the crossings at one place have it in common
@@ -161,9 +163,9 @@ inline bool is_at_start(const PlacedLeaf& leaf, const WorldRay& ray, double star
 ///  1. The boxes of the tree are opened in the order in which the line enters them, and no further
 ///     than the next crossing asks for. A leaf whose box is opened puts its crossings among those
 ///     to come. One of many faces, a mesh, may do so piece by piece.
-///  2. The first of these and all that coincide with it form a *cluster*. Those are crossings that
-///     the bounds of their errors cannot separate, and those of one surface. In the exact tier the
-///     former are separated nevertheless (exact_order.hpp).
+///  2. The first of these and all that coincide with it form a *cluster*. Those are crossings at
+///     one place (one_place.hpp), and those of one surface. In the exact tier the former are
+///     separated nevertheless (exact_order.hpp).
 ///  3. A cluster's flips happen all at once. Counters up the tree change only as far as values do,
 ///     and in deep programs paths take their place (heavy_paths.hpp). Only the root's value before
 ///     and after counts, so pieces without length vanish.
@@ -230,7 +232,17 @@ class CsgEvaluation {
     if (++ticks_ % steps_per_look == 0) [[unlikely]]
       work_.steps.poll();
   }
-  const CsgCrossing& next_crossing() const { return work_.met_[work_.to_come_.front().index]; }
+  CsgCrossing& next_crossing() const { return work_.met_[work_.to_come_.front().index]; }
+  /// Returns how far behind a crossing others may be at its place.
+  double tolerance(const CsgCrossing& crossing) const {
+    return coincidence_tolerance(ray_, crossing.t, crossing.error);
+  }
+  /// Returns whether another crossing is so near to the first one to come that it may be at its
+  /// place. What is not opened before the end of that place is not.
+  bool is_near(const CsgCrossing& first, const CsgCrossing& other) const;
+  double reach(CsgCrossing& crossing) const;
+  /// Takes the next crossing into the cluster's place, if it is there.
+  bool coincides(const CsgCrossing& first, CsgCrossing& next, CommonPlace& place) const;
   bool is_later(const CsgWorkspace::ToCome& a, const CsgWorkspace::ToCome& b) const;
   /// Returns the order of the heap of what is to come.
   auto later() const {

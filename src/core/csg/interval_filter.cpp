@@ -7,6 +7,7 @@
 #include "core/csg/evaluate.hpp"
 #include "core/csg/near_leaves.hpp"
 #include "core/csg/program.hpp"
+#include "core/ray/coincidence_tolerance.hpp"
 
 namespace crt::core {
 
@@ -124,6 +125,10 @@ class IntervalFilter::Search {
     }
   }
 
+  Real tolerance(const Real& t) const {
+    return coincidence_tolerance(plain_ray(lines_.lines()), t, Real{});
+  }
+
   /// Notes the changes at the ends of leaves that begin at `from`, where there is just one and it
   /// is certain. Returns the rays of which that end reaches beyond the horizon.
   Mask set_change(bool value, const Real& from, Mask rays) {
@@ -137,12 +142,16 @@ class IntervalFilter::Search {
       if (!any(here)) continue;
       rays = rays && !here;
       const Real to = leaving ? interval.leave_to : interval.enter_to;
-      const Mask is_seen = to < horizon() || to >= lines_.limits();
+      // Ends that are near to this one may be at one place with it.
+      const Real near_from = from - tolerance(from);
+      const Real near_to = to + tolerance(to);
+      const Mask is_seen = near_to < horizon() || near_to >= lines_.limits();
       unseen = unseen || (here && !is_seen);
       here = here && is_seen;
       // A ray that nearly grazes the leaf may not meet it at all.
       const Mask is_isolated = leaving ? interval.enter_to < from : interval.leave_from > to;
-      const Mask sure = here && to < lines_.limits() && is_isolated && depends_on(leaf, from, to);
+      const Mask sure =
+          here && near_to < lines_.limits() && is_isolated && depends_on(leaf, near_from, near_to);
       changes_.one = changes_.one || sure;
       if (value) changes_.into_object = changes_.into_object || sure;
       if (!leaving) changes_.into_leaf = changes_.into_leaf || sure;

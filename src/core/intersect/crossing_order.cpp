@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
 
 #include "core/compile/leaf_of_hit.hpp"
+#include "core/csg/one_place.hpp"
 #include "core/math/stable_sort.hpp"
 
 namespace crt::core {
@@ -43,6 +45,40 @@ void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>
     const bool of_one = crossings[i].object == crossings[i - 1].object;
     if (of_one && is_before(crossings[i], crossings[i - 1]))
       take_place(crossings[i], crossings[i - 1]);
+  }
+}
+
+/// A crossing looks for others of its object among so many before it, so that a place of very many
+/// costs no more than their number.
+constexpr std::size_t most_looked_at = 64;
+
+/// Gives crossings of the standard tier that are at one place one t. Those of one object stay
+/// apart.
+void unify_places(const CompiledScene& scene, const WorldRay& ray, std::span<RayHit> crossings) {
+  for (std::size_t begin = 0; begin + 1 < crossings.size();) {
+    const RayHit& first = crossings[begin];
+    const double tolerance = coincidence_tolerance(ray, first.t, first.error);
+    std::optional<CommonPlace> place;
+    std::size_t end = begin + 1;
+    for (; end < crossings.size(); ++end) {
+      const RayHit& next = crossings[end];
+      const double gap = gap_between(first, next);
+      if (gap > tolerance) break;
+      if (gap == 0) continue;
+      const auto some = crossings.subspan(begin, end - begin);
+      const auto last = some.last(std::min(some.size(), most_looked_at));
+      const auto is_its_own = [&](const RayHit& other) { return other.object == next.object; };
+      if (std::any_of(last.begin(), last.end(), is_its_own)) break;
+      if (!place) place.emplace(reach_of_place(scene, ray, first));
+      if (!place->take(gap, reach_of_place(scene, ray, next))) break;
+    }
+    const std::span<RayHit> some = crossings.subspan(begin, end - begin);
+    begin = end;
+    if (some.size() == 1) continue;
+    const RayHit best =
+        *std::min_element(some.begin(), some.end(),
+                          [](const RayHit& a, const RayHit& b) { return a.error < b.error; });
+    for (RayHit& crossing : some) take_place(crossing, best);
   }
 }
 
@@ -120,6 +156,16 @@ void sort_near(const CompiledScene& scene, const WorldRay& ray, std::span<RayHit
 
 }  // namespace
 
+double reach_of_place(const CompiledScene& scene, const WorldRay& ray, const RayHit& hit) {
+  const LeafOfHit in_place(scene, hit);
+  return reach_of_place({in_place.leaf(), in_place.placement()}, ray,
+                        {.t = hit.t,
+                         .error = hit.error,
+                         .face = hit.face,
+                         .root = hit.root,
+                         .entering = hit.entering});
+}
+
 void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_surfaces,
                     std::vector<RayHit>& crossings, RayWorkspace& work) {
   if (crossings.size() < 2) return;
@@ -131,6 +177,8 @@ void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_
     };
     each_run(crossings, are_near,
              [&](std::span<RayHit> some) { sort_near(scene, ray, some, work); });
+  } else {
+    unify_places(scene, ray, crossings);
   }
   sort_places(crossings, work);
 }

@@ -9,11 +9,14 @@
 
 namespace crt::core {
 
+/// Returns the reach of the place of a crossing (csg/one_place.hpp).
+double reach_of_place(const CompiledScene& scene, const WorldRay& ray, const RayHit& hit);
+
 /// Puts the crossings of a ray into order. They come object after object, each object's in its own
 /// order, which they keep. Those of one surface get one t if objects `share_surfaces`. Where solids
-/// touch, those that are left come before those that are entered. In the exact tier the order is
-/// exact, and crossings have one (t, t_low) if and only if they are at one place. There only the
-/// rounding of the ray's start may decide otherwise.
+/// touch, those that are left come before those that are entered. Crossings have one (t, t_low) if
+/// and only if they are at one place. In the exact tier the order is exact. There only the rounding
+/// of the ray's start may decide otherwise.
 void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_surfaces,
                     std::vector<RayHit>& crossings, RayWorkspace& work);
 

@@ -31,6 +31,13 @@ struct ExactTests {
   }
 };
 
+/// Returns an exit whose error is the reach of its place, by which ends of several objects are
+/// compared.
+RayHit end_at_place(const CompiledScene& scene, const WorldRay& ray, RayHit exit) {
+  if (exit.found()) exit.error = reach_of_place(scene, ray, exit);
+  return exit;
+}
+
 }  // namespace
 
 template <bool FromNear, class Visit>
@@ -222,7 +229,7 @@ void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
     Stayed query(*this, ray, work);
     query.test(object);
     if (!query.result.inside) return;
-    out.push_back(query.result.exit);
+    out.push_back(end_at_place(compiled_, ray, query.result.exit));
     if (!out.back().found())
       out.back() = {.object = object, .leaf = this->object(object).first_leaf};
   });
@@ -250,6 +257,7 @@ Stay Accelerator::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& 
   work.csg.steps.begin_ray();
   Stayed query(*this, ray, work);
   query.test(object);
+  query.result.exit = end_at_place(compiled_, ray, query.result.exit);
   return query.result;
 }
 
@@ -312,13 +320,9 @@ RayHit Accelerator::gather_coincident(const WorldRay& ray, const RayHit& nearest
   here.clear();
   near.clear();
   all(piece, near, work);
-  const bool exact = compiled_.leaf_of(nearest).exact != nullptr;
-  if (exact) sort(ray, near, work);
-  RayHit first = exact && !near.empty() ? near.front() : nearest;
-  const auto is_there = [&](const RayHit& crossing) {
-    return exact ? crossing.t == first.t && crossing.t_low == first.t_low
-                 : same_place(crossing, first);
-  };
+  sort(ray, near, work);
+  RayHit first = near.empty() ? nearest : near.front();
+  const auto is_there = [&](const RayHit& crossing) { return have_one_t(crossing, first); };
   std::sort(near.begin(), near.end(), [](const RayHit& a, const RayHit& b) {
     return std::tie(a.object, a.t, a.t_low) < std::tie(b.object, b.t, b.t_low);
   });

@@ -6,6 +6,14 @@
 
 namespace crt::core {
 
+/// The place of a crossing reaches at most so far along the ray, relative to its primitive
+/// (csg/one_place.hpp), but for an error that the shape states.
+inline constexpr double most_reach = 0x1p-30;
+
+/// Places that are so many roundings of their size and coordinates from each other, by two of them,
+/// are one.
+inline constexpr double roundings_of_place = 4;
+
 /// Returns how far along the ray from a hit other crossings may be and yet be at its place. They
 /// may also be at the start of a secondary ray from the hit, whose origin is rounded. The tolerance
 /// is wide, as the next ray may meet at right angles what this one grazes. It only decides where to
@@ -14,7 +22,7 @@ template <class Real>
 [[gnu::always_inline]] inline Real coincidence_tolerance(const PlainRay<Real>& ray, const Real& t,
                                                          const Real& error) {
   constexpr double error_factor = 4;
-  constexpr double relative_width = 0x1p-40;
+  constexpr double relative_width = 2 * most_reach;
   const Real farthest =
       fma(abs(t), largest_component(ray.direction), largest_component(ray.origin));
   return error_factor * error + relative_width * farthest;

@@ -27,6 +27,11 @@ struct RayHit {
   bool found() const { return object != nothing; }
 };
 
+/// Returns whether crossings that have been put into order are at one place.
+inline bool have_one_t(const RayHit& a, const RayHit& b) {
+  return a.t == b.t && a.t_low == b.t_low;
+}
+
 /// Returns whether two crossings of one ray count as being at one place. Crossings of one surface
 /// are compared by identity, and others by whether their error bounds can separate them.
 inline bool same_place(const RayHit& a, const RayHit& b) {

@@ -24,7 +24,7 @@ class AbsorbedShare final : private MediaAlongRay::Line {
       media_.surround(lists.innermost(media));
     for (std::size_t begin = 0; begin < crossings_.size();) {
       std::size_t end = begin + 1;
-      while (end < crossings_.size() && same_place(crossings_[begin], crossings_[end])) ++end;
+      while (end < crossings_.size() && have_one_t(crossings_[begin], crossings_[end])) ++end;
       go_on_to(crossings_[begin].t);
       pass(begin, end);
       begin = end;

@@ -5,6 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
+#include "core/geometry/exact_plane.hpp"
 #include "core/geometry/open_nodes.hpp"
 #include "core/geometry/order_of_places.hpp"
 #include "core/geometry/profile/agree_with_start.hpp"
@@ -33,9 +34,14 @@ const Vec3* corner_on_line(const Profile::Piece& piece, const CornerSide& from,
 /// CrossedWalls makes one list of crossings.
 class CrossedWalls {
  public:
-  CrossedWalls(const Profile& profile, PlaneLine& line, const ExtrusionTier& tier,
+  CrossedWalls(const Profile& profile, PlaneLine& line, const ExtrusionTier& tier, double shortest,
                CrossingList& out)
-      : profile_(profile), line_(line), ray_(line.near()), tier_(tier), out_(out) {}
+      : profile_(profile),
+        line_(line),
+        ray_(line.near()),
+        tier_(tier),
+        longest_error_(shortest),
+        out_(out) {}
 
   void append();
 
@@ -50,12 +56,13 @@ class CrossedWalls {
   void add_flat(std::uint32_t wall, ShiftMask shifts, const CornerSide& from, const CornerSide& to);
   void add_round(std::uint32_t arc, const ArcCut& cut, const Vec3* corner);
   void unite_at_corners();
-  std::array<Crossing, 2> meet_circle(std::uint32_t arc) const;
+  bool meet_flat(const Profile::Piece& piece, Crossing& crossing);
+  std::array<Crossing, 2> meet_circle(std::uint32_t arc);
   int order(const Crossing& a, const Crossing& b) const;
   using Walls = std::pmr::vector<CrossedWall>;
 
   void bound_by(const Crossing& other, Crossing& crossing) const {
-    if (!starts_on(crossing.face)) core::bound_by(other, crossing);
+    if (!starts_on(crossing.face)) core::bound_by(other, longest_error_, crossing);
   }
   void append_parts();
   void append_part(const Crossing& enter, const Crossing& leave);
@@ -64,6 +71,7 @@ class CrossedWalls {
   PlaneLine& line_;
   const ObjectRay& ray_;
   const ExtrusionTier& tier_;
+  LongestError longest_error_;
   EndSpan ends_;
   CrossingList& out_;
   // The crossed walls of most lines fit here.
@@ -144,7 +152,7 @@ void CrossedWalls::add_flat(std::uint32_t wall, ShiftMask shifts, const CornerSi
                             const CornerSide& to) {
   const Profile::Piece& piece = profile_.pieces()[profile_.wall(wall).piece];
   Crossing crossing{.face = face_of_wall(wall, false)};
-  if (!starts_on(crossing.face) && !tier_.meet(piece.first, crossing)) {
+  if (!starts_on(crossing.face) && !meet_flat(profile_.pieces()[piece.first], crossing)) {
     const Vec3 offset = piece.from - ray_.origin;
     const double ahead = offset.x * ray_.direction.x + offset.y * ray_.direction.y;
     crossing.t = std::copysign(infinity, ahead);
@@ -152,6 +160,19 @@ void CrossedWalls::add_flat(std::uint32_t wall, ShiftMask shifts, const CornerSi
   walls_.push_back(
       {crossing, shifts, PlaneLine::goes_right(from, to), corner_on_line(piece, from, to)});
   largest_error_ = std::max(largest_error_, crossing.error);
+}
+
+/// Finds where the line crosses the plane of a piece, which is the first in that plane. A line that
+/// is all but parallel to it crosses it exactly there: rounding would not even leave the sign of t.
+/// Returns false if t is beyond all doubles.
+bool CrossedWalls::meet_flat(const Profile::Piece& piece, Crossing& crossing) {
+  if (tier_.meet(piece.first, crossing) && !longest_error_.is_exceeded_by(crossing)) return true;
+  const ExactPlane plane = ExactPlane::through(piece.from, piece.to, piece.from + Vec3(0, 0, 1));
+  const ExactPlane::Fraction t = plane.meet_exactly(line_.exact());
+  if (t.side == 0) return false;
+  const DoubleDouble rounded = (t.numerator.rounded() / t.denominator.rounded()).unscaled();
+  tier_.place(rounded, crossing);
+  return std::isfinite(crossing.t);
 }
 
 void CrossedWalls::add_round(std::uint32_t arc, const ArcCut& cut, const Vec3* corner) {
@@ -169,7 +190,7 @@ void CrossedWalls::add_round(std::uint32_t arc, const ArcCut& cut, const Vec3* c
   add(met[1], cut.leave, true);
 }
 
-std::array<Crossing, 2> CrossedWalls::meet_circle(std::uint32_t arc_number) const {
+std::array<Crossing, 2> CrossedWalls::meet_circle(std::uint32_t arc_number) {
   const Profile::Arc& arc = profile_.arcs()[arc_number];
   if (starts_on(face_of_wall(arc.piece, false))) {
     const Crossing here;
@@ -189,6 +210,15 @@ std::array<Crossing, 2> CrossedWalls::meet_circle(std::uint32_t arc_number) cons
     return {enter, leave};
   }
   std::array<Crossing, 2> met = tier_.meet_circle(arc.first, ends_);
+  const bool is_long = std::any_of(met.begin(), met.end(), [this](const Crossing& crossing) {
+    return longest_error_.is_exceeded_by(crossing);
+  });
+  if (!is_long && met[0].t < met[1].t) return met;
+  // The line is all but along the wall, or touches it but for rounding.
+  const ExactQuadratic circle = line_.equation(arc);
+  if (circle.discriminant().sign() <= 0) return {enter, leave};
+  const std::array<DoubleDouble, 2> roots = circle.roots();
+  for (std::size_t i = 0; i < met.size(); ++i) tier_.place(roots[i], met[i]);
   if (!std::isfinite(met[0].t)) met[0] = enter;
   if (!std::isfinite(met[1].t)) met[1] = leave;
   return met;
@@ -232,7 +262,9 @@ void CrossedWalls::append_parts() {
     if (is_inside != was_inside) {
       Crossing crossing = chosen->crossing;
       crossing.entering = is_inside;
-      if (!starts_on(crossing.face)) bound_beside(walls_, group, end, largest_error_, crossing);
+      if (!starts_on(crossing.face)) {
+        bound_beside(walls_, group, end, largest_error_, longest_error_, crossing);
+      }
       if (chosen->along_normal == is_inside) ++crossing.face;
       if (is_inside) {
         enter = crossing;
@@ -265,7 +297,7 @@ void CrossedWalls::append_part(const Crossing& enter, const Crossing& leave) {
 void append_crossings(const Profile& profile, PlaneLine& line, const ExtrusionTier& tier,
                       double shortest, CrossingList& out) {
   const std::size_t begin = out.size();
-  CrossedWalls(profile, line, tier, out).append();
+  CrossedWalls(profile, line, tier, shortest, out).append();
   const FaceStart& start = line.near().start;
   if (start.face != no_face && start.on_face) {
     const bool is_round =

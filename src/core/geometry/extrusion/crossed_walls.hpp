@@ -45,6 +45,8 @@ class ExtrusionTier {
   virtual std::array<Crossing, 2> meet_circle(std::uint32_t arc, const EndSpan& ends) const = 0;
   /// Finds where a line that starts on the circle of an arc meets it again.
   virtual Crossing meet_circle_again(std::uint32_t arc) const = 0;
+  /// Gives a crossing its t, which is known to about 100 bits, and the error of that.
+  virtual void place(const DoubleDouble& t, Crossing& crossing) const = 0;
   /// Returns the sign of the first t less the second, and 0 if they are equal.
   virtual int order(const Crossing& first, const Crossing& second) const = 0;
 };

@@ -115,6 +115,10 @@ class ExactTier final : public ExtrusionTier {
     return exact_crossing(circle.root_beside_zero(), {});
   }
 
+  void place(const DoubleDouble& t, Crossing& crossing) const override {
+    crossing = exact_crossing(t, crossing);
+  }
+
   int order(const Crossing& first, const Crossing& second) const override {
     if (are_on_one_surface(*extrusion_.profile, first.face, second.face) &&
         first.root == second.root) {

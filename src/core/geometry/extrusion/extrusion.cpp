@@ -44,6 +44,12 @@ class StandardTier final : public ExtrusionTier {
     return shape_.cylinder(arc).side_start(ray_, ClippedSpan(ray_.start, shortest_)).other;
   }
 
+  void place(const DoubleDouble& t, Crossing& crossing) const override {
+    constexpr double last_rounding = 1 + 0x1p-40;
+    crossing.t = t.hi;
+    crossing.error = rounding_of(t.hi) * last_rounding;
+  }
+
   int order(const Crossing& first, const Crossing& second) const override {
     return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
   }

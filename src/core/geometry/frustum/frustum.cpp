@@ -92,8 +92,9 @@ bool FrustumShape::move_to_least(const ObjectRay& ray, NearLine& line, const Sid
 
 /// Returns |n . d| at a root: sqrt(discriminant) / (s0 + s1 x).
 double FrustumShape::approach(const SideEquation& side, double x) {
-  // Through the apex a ray meets the cone as squarely as its angle to the side allows.
-  if (!(side.discriminant > 0)) return std::sqrt(std::abs(side.a));
+  // Through the apex a ray meets the cone as squarely as its angle to the side allows. A cylinder
+  // is touched.
+  if (!(side.discriminant > 0)) return side.radius_rate == 0 ? 0 : std::sqrt(std::abs(side.a));
   return std::sqrt(side.discriminant) / std::abs(side.radius + side.radius_rate * x);
 }
 

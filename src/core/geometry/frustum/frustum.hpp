@@ -252,7 +252,8 @@ FrustumShape::SideRoots<Real>::SideRoots(const SideEquationOf<Real>& side) {
   const Real half = sqrt(max(side.discriminant, Real{}));
   const Real sum = select(side.b >= 0.0, -(side.b + half), half - side.b);
   const Real first = sum / side.a;
-  const Real second = select(sum != 0.0, side.c / sum, Real{});
+  // A line that touches the side, or passes it by less than rounding, has both roots in one place.
+  const Real second = select(side.discriminant > 0.0, side.c / sum, first);
   low = min(first, second);
   high = max(first, second);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/geometry/exact_plane.hpp"
+#include "core/geometry/exact_shape.hpp"
 #include "core/geometry/mesh/met_triangles.hpp"
 
 namespace crt::core {
@@ -24,6 +25,9 @@ class ExactMeshTier final : public MeshTier {
     return meeting.found();
   }
 
+  void place(const DoubleDouble& t, Crossing& crossing) const override {
+    crossing = exact_crossing(t, crossing);
+  }
 
   int order(const Crossing& first, const Crossing& second) const override {
     if (mesh_.are_in_one_plane(first.face, second.face)) return 0;

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "core/base/sort_by_insertion.hpp"
+#include "core/geometry/exact_plane.hpp"
 #include "core/geometry/mesh/facing.hpp"
 #include "core/geometry/mesh/met_triangles.hpp"
 #include "core/geometry/mesh/passing_line.hpp"
@@ -69,7 +70,8 @@ class MetTriangles {
   bool leave_out_rest();
   bool find_all();
   bool finish();
-  void keep_in_triangle(const Triangle& triangle, Crossing& crossing) const;
+  void keep_in_triangle(const Triangle& triangle, const Triangle& in_plane,
+                        Crossing& crossing) const;
   double start_slack() const;
   double most_overlap() const;
   double begin_of_line() const { return ray_.begin - start_slack(); }
@@ -155,8 +157,8 @@ double MetTriangles<Triangles>::start_slack() const {
   return share * place_size() / largest_component(ray_.direction);
 }
 
-/// Returns how far before or behind its triangle a crossing may be: keep_in_triangle() moves those
-/// that rounding has put farther away.
+/// Returns how far before or behind its triangle a crossing may reach: keep_in_triangle() finds
+/// those exactly that rounding has put farther away.
 template <class Triangles>
 double MetTriangles<Triangles>::most_overlap() const {
   constexpr double share = 0x1p-32;
@@ -249,8 +251,9 @@ Crossing MetTriangles<Triangles>::meet(const Item& triangle, bool along) const {
   Crossing crossing{.face = triangle.number, .entering = !along};
   if (starts_on(triangle)) return crossing;
   const Triangle corners = mesh_.corners_of(triangle);
-  if (tier_.meet(mesh_.corners_of_plane(triangle, corners), crossing)) {
-    keep_in_triangle(corners, crossing);
+  const Triangle in_plane = mesh_.corners_of_plane(triangle, corners);
+  if (tier_.meet(in_plane, crossing)) {
+    keep_in_triangle(corners, in_plane, crossing);
   } else {
     const double ahead = glm::dot(corners.a - ray_.origin, ray_.direction);
     crossing.t = std::copysign(infinity, ahead);
@@ -259,8 +262,11 @@ Crossing MetTriangles<Triangles>::meet(const Item& triangle, bool along) const {
 }
 
 /// A line that all but grazes a triangle still meets it between its corners, and nowhere else.
+/// Where rounding has put it elsewhere, or does not tell, it is found without rounding: by the
+/// triangle that says for all of its plane where that is.
 template <class Triangles>
-void MetTriangles<Triangles>::keep_in_triangle(const Triangle& triangle, Crossing& crossing) const {
+void MetTriangles<Triangles>::keep_in_triangle(const Triangle& triangle, const Triangle& in_plane,
+                                               Crossing& crossing) const {
   const double scale = inverse_of_power(power_of_two_below(largest_component(ray_.direction)));
   const Vec3 direction = scale * ray_.direction;
   const double squared_length = glm::dot(direction, direction);
@@ -275,11 +281,14 @@ void MetTriangles<Triangles>::keep_in_triangle(const Triangle& triangle, Crossin
     reach = std::max(reach, largest_component(offset));
   }
   constexpr double roundings = 16;
-  const double extent = high - low + roundings * unit_roundoff * reach * scale;
-  if (!(crossing.error > std::min(extent, most_overlap_))) return;
-  crossing.t = std::clamp(crossing.t, low, high);
-  crossing.t_low = 0;
-  crossing.error = std::min(crossing.error, extent);
+  reach += largest_component(ray_.origin);
+  const double slack = roundings * unit_roundoff * reach * scale;
+  const bool is_there = crossing.t >= low - slack && crossing.t <= high + slack;
+  if (is_there && !(crossing.error > std::min(high - low + slack, most_overlap_))) return;
+  const ExactPlane plane = ExactPlane::through(in_plane.a, in_plane.b, in_plane.c);
+  const ExactPlane::Fraction t = plane.meet_exactly(line_.exact());
+  if (t.side == 0) return;
+  tier_.place((t.numerator.rounded() / t.denominator.rounded()).unscaled(), crossing);
 }
 
 template <class Triangles>

@@ -18,6 +18,12 @@ bool StandardMeshTier::meet(const Triangle& triangle, Crossing& crossing) const 
   return meeting.found;
 }
 
+void StandardMeshTier::place(const DoubleDouble& t, Crossing& crossing) const {
+  constexpr double last_rounding = 1 + 0x1p-40;
+  crossing.t = t.hi;
+  crossing.error = rounding_of(t.hi) * last_rounding;
+}
+
 int StandardMeshTier::order(const Crossing& first, const Crossing& second) const {
   return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
 }

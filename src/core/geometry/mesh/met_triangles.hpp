@@ -25,6 +25,8 @@ class MeshTier {
   /// Finds t and its error, where the line meets the plane of a triangle. Returns false if t is
   /// beyond all doubles.
   virtual bool meet(const Triangle& triangle, Crossing& crossing) const = 0;
+  /// Gives a crossing its t, which is known to about 100 bits, and the error of that.
+  virtual void place(const DoubleDouble& t, Crossing& crossing) const = 0;
   /// Returns the sign of the first t less the second, and 0 if they are equal.
   virtual int order(const Crossing& first, const Crossing& second) const = 0;
   /// Returns whether rounding may have put crossings into another order than the true one.
@@ -37,6 +39,7 @@ class StandardMeshTier final : public MeshTier {
   explicit StandardMeshTier(const ObjectRay& ray);
 
   bool meet(const Triangle& triangle, Crossing& crossing) const override;
+  void place(const DoubleDouble& t, Crossing& crossing) const override;
   int order(const Crossing& first, const Crossing& second) const override;
   bool may_be_out_of_order() const override { return true; }
 

@@ -47,12 +47,13 @@ class PassingLine {
   const ObjectRay& near() const { return near_; }
   /// Returns a bound on the distance of near() from the line at its begin.
   double origin_error() const { return origin_error_; }
+  /// Returns the line without rounding.
+  const ExactLine& exact();
 
  private:
   PassingLine(const ObjectRay& near, const ExactRay* ray, double origin_error,
               double direction_error);
 
-  const ExactLine& exact();
   /// Returns the side of one edge, which is never 0.
   int exact_side(const Vec3& from, const Vec3& to);
 

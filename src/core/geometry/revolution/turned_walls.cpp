@@ -355,7 +355,11 @@ void TurnedWalls::append_parts() {
       const TurnedWall& wall = chosen(group, end, is_inside);
       Crossing crossing = wall.crossing;
       crossing.entering = is_inside;
-      if (!starts_on(crossing.face)) bound_beside(walls_, group, end, largest_error_, crossing);
+      if (!starts_on(crossing.face)) {
+        const LongestError longest(unit_roundoff * turned_.size() /
+                                   largest_component(ray_.direction));
+        bound_beside(walls_, group, end, largest_error_, longest, crossing);
+      }
       if (wall.shifts != 0 && wall.along_normal == is_inside) ++crossing.face;
       out_.push_back(crossing);
       if (!is_inside) drop_if_endless();
