@@ -57,7 +57,7 @@ inline std::shared_ptr<const Profile> disc_of(double radius) {
   return profile_of({{{radius, 0, 1}, {-radius, 0, 1}}});
 }
 
-/// Returns a letter's outline: straight walls, an arc and a hole.
+/// Returns the profile of a letter: straight walls, an arc and a hole.
 inline std::shared_ptr<const Profile> letter() {
   return profile_of({{{-1, -1}, {1, -1}, {1, 0.5, 0.6}, {-0.3, 1}, {-1, 1}},
                      {{-0.5, -0.5}, {0.2, -0.5}, {0.2, 0.1}, {-0.5, 0.1}}});

@@ -14,9 +14,9 @@ namespace crt::core {
 /// Brings the parts of a union into groups such that a plane across an axis separates any two of
 /// them. Their boxes do not even touch but for rounding (csg/one_place.hpp), so the union of the
 /// groups is all of them side by side. The order within a group is kept, and groups come in the
-/// order of their first parts. Returns where each ends. bounds_of() returns a box around a part, and
-/// is called from several threads. It takes O(n log n) on as many threads as `workers` says, and the
-/// result is always the same.
+/// order of their first parts. Returns where each ends. bounds_of() returns a box around a part,
+/// and is called from several threads. It takes O(n log n) on as many threads as `workers` says,
+/// and the result is always the same.
 std::vector<std::size_t> disjoint_groups(std::vector<Part>& parts,
                                          const std::function<Bounds(const Part&)>& bounds_of,
                                          const Workers& workers);

@@ -12,10 +12,6 @@ namespace {
 /// A line has at most this many crossings with one surface, as with a torus.
 constexpr std::size_t most_roots = 4;
 
-/// A crossing looks for others of its leaf among so many before it, so that a place of very many
-/// costs no more than their number.
-constexpr std::size_t most_looked_at = 64;
-
 /// The tolerance of what coincides has a finite value up to here.
 constexpr double finite_t = 0x1p900;
 
@@ -287,43 +283,6 @@ void CsgEvaluation::gather_cluster() {
         return crossing->shared != FaceSurface::not_shared && shared_state(*crossing).to_come > 0;
       });
   if (some_to_come) gather_shared();
-}
-
-bool CsgEvaluation::is_near(const CsgCrossing& first, const CsgCrossing& other) const {
-  if (first.place != 0) return other.place == first.place;
-  const double tolerance = this->tolerance(first);
-  return gap_between(first, other) <= std::max(tolerance, first.error + other.error) &&
-         other.enter <= first.t + tolerance;
-}
-
-double CsgEvaluation::reach(CsgCrossing& crossing) const {
-  if (crossing.reach < 0) {
-    crossing.reach = reach_of_place(placed(leaves_[crossing.leaf]), ray_,
-                                    {.t = crossing.t,
-                                     .error = crossing.error,
-                                     .face = crossing.face,
-                                     .root = crossing.root,
-                                     .entering = crossing.entering});
-  }
-  return crossing.reach;
-}
-
-bool CsgEvaluation::coincides(const CsgCrossing& first, CsgCrossing& next,
-                              CommonPlace& place) const {
-  if (first.place != 0) return true;
-  // How long the line is in a leaf is known better than where.
-  const auto own_reach = [&](const CsgCrossing& crossing) {
-    return reach_in_leaf(crossing.t, crossing.error, crossing.reach);
-  };
-  next.reach = reach(next);
-  const auto is_beyond_own = [&](const CsgCrossing* other) {
-    return other->leaf == next.leaf &&
-           gap_between(*other, next) > own_reach(*other) + own_reach(next);
-  };
-  const auto& cluster = work_.cluster_;
-  const auto looked_at = static_cast<std::ptrdiff_t>(std::min(cluster.size(), most_looked_at));
-  if (std::any_of(cluster.end() - looked_at, cluster.end(), is_beyond_own)) return false;
-  return place.take(gap_between(first, next), next.reach);
 }
 
 void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {

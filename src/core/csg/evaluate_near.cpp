@@ -1,10 +1,55 @@
-// This part of CsgEvaluation handles crossings of the exact tier that are near to each other. There
-// t does not show which of them are at one place.
+// This part of CsgEvaluation handles crossings that are near to each other: which of them are at
+// one place, by the rule of one_place.hpp, and in the exact tier without rounding.
 #include <algorithm>
 
 #include "core/csg/evaluate.hpp"
 
 namespace crt::core {
+
+namespace {
+
+/// A crossing looks for others of its leaf among so many before it, so that a place of very many
+/// costs no more than their number.
+constexpr std::size_t most_looked_at = 64;
+
+}  // namespace
+
+bool CsgEvaluation::is_near(const CsgCrossing& first, const CsgCrossing& other) const {
+  if (first.place != 0) return other.place == first.place;
+  const double tolerance = this->tolerance(first);
+  return gap_between(first, other) <= std::max(tolerance, first.error + other.error) &&
+         other.enter <= first.t + tolerance;
+}
+
+double CsgEvaluation::reach(CsgCrossing& crossing) const {
+  if (crossing.reach < 0) {
+    crossing.reach = reach_of_place(placed(leaves_[crossing.leaf]), ray_,
+                                    {.t = crossing.t,
+                                     .error = crossing.error,
+                                     .face = crossing.face,
+                                     .root = crossing.root,
+                                     .entering = crossing.entering});
+  }
+  return crossing.reach;
+}
+
+bool CsgEvaluation::coincides(const CsgCrossing& first, CsgCrossing& next,
+                              CommonPlace& place) const {
+  if (first.place != 0) return true;
+  // How long the line is in a leaf is known better than where.
+  const auto own_reach = [&](const CsgCrossing& crossing) {
+    return reach_in_leaf(crossing.t, crossing.error, crossing.reach);
+  };
+  next.reach = reach(next);
+  const auto is_beyond_own = [&](const CsgCrossing* other) {
+    return other->leaf == next.leaf &&
+           gap_between(*other, next) > own_reach(*other) + own_reach(next);
+  };
+  const auto& cluster = work_.cluster_;
+  const auto looked_at = static_cast<std::ptrdiff_t>(std::min(cluster.size(), most_looked_at));
+  if (std::any_of(cluster.end() - looked_at, cluster.end(), is_beyond_own)) return false;
+  return place.take(gap_between(first, next), next.reach);
+}
 
 void CsgEvaluation::order_near_crossings() {
   auto& openings = work_.openings_;
