@@ -102,8 +102,8 @@ int main(void) {
   static uint8_t shadowed[ray_count];
   crt_prepared* prepared = NULL;
   aim(letters);
-  int failed = make_scene(&prepared) || crt_trace(prepared, &letters->view, sizeof *letters, NULL, 0,
-                                                  ray_count, &letters->hit, sizeof *letters);
+  int failed = make_scene(&prepared) || crt_trace(prepared, &letters->view, sizeof *letters, NULL,
+                                                  0, ray_count, &letters->hit, sizeof *letters);
   if (!failed) {
     aim_at_light(letters);
     failed = crt_blocked(prepared, &letters->to_light, sizeof *letters, &letters->hit.start, NULL,

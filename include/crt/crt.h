@@ -1526,12 +1526,12 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * behind the ray if it is within 32 u times the sum of the start's largest coordinate and the
  * object's size, measured across the surface (u = 2^-53; the size is half of the longest side of
  * the box around it), or within twice the error bound of its t if that is more. At the end, t_max,
- * the same holds of what is before the ray's end. So a ray from a point that was computed to be on a
- * surface, as origin + t * direction, does not meet that surface there again, nor does one to such
- * a point. What is nearer than that is not seen. What is behind the start is never reported as
- * ahead of it. The point must not come from much farther away than the size and the coordinates
- * are, as then it is off by more, and the ray must be at an angle of more than 2^-24 with the
- * surface. A ray with a crt_start knows where it begins and needs none of this.
+ * the same holds of what is before it. So a ray from a point that was computed to be on a surface,
+ * as origin + t * direction, does not meet that surface there again, nor does one to such a point.
+ * What is nearer than that is not seen. What is behind the start is never reported as ahead of it.
+ * The point must not come from much farther away than the size and the coordinates are, as then it
+ * is off by more, and the ray must be at an angle of more than 2^-24 with the surface. A ray with a
+ * crt_start knows where it begins and needs none of this.
  *
  * With CRT_PRECISION_EXACT the origin is taken for the point that its doubles say. A surface is met
  * exactly if t_min < t holds for the exact t, rounded to a double. So a ray from a point which
@@ -1655,7 +1655,8 @@ typedef struct crt_start {
 
 /**
  * A full hit is all that is known of where a ray meets a surface. A miss has t = INFINITY,
- * UINT32_MAX for the three ids, and 0 elsewhere. The layout is fixed for ever: 112 bytes. Since 1.1.
+ * UINT32_MAX for the three ids, and 0 elsewhere. The layout is fixed for ever: 112 bytes. Since
+ * 1.1.
  */
 typedef struct crt_full_hit {
   double t;           /**< in units of |direction| */
@@ -1677,7 +1678,7 @@ typedef struct crt_full_hit {
  * ends, in both tiers, and meets each place that crt_crossings() lists. With t_min = 0 the surface
  * is at the ray's origin: give the position of the hit. A ray that goes on along its own line may
  * also keep its origin and begin at t_min = t of the hit. If any ray is invalid, or a start is not
- * of this scene as far as can be told, no ray is traced, and the message names its index. Since
+ * of this scene as far as one can see, no ray is traced, and the message names its index. Since
  * 1.1.
  * @param starts        as many as rays, or NULL; they may lie in `hits`, each in its own ray's hit
  * @param start_stride  bytes from one to the next; 0 means one after the other

@@ -6,14 +6,14 @@
 //
 // All queries treat a surface at the start of a ray alike. With Precision::standard it counts as
 // behind the ray if it is within 32 u times the sum of the start's largest coordinate and the
-// object's size, measured across the surface (u = 2^-53; the size is half of the longest side of the
-// box around it), or within twice the error bound of its t if that is more. At the end, t_max, the
-// same holds of what is before the ray's end. So a ray from a point that was computed to be on a
-// surface, as origin + t * direction, does not meet that surface there again, nor does one to such a
-// point. What is nearer than that is not seen. What is behind the start is never reported as ahead
-// of it. The point must not come from much farther away than the size and the coordinates are, as
-// then it is off by more, and the ray must be at an angle of more than 2^-24 with the surface. A ray
-// with a RayStart knows where it begins and needs none of this.
+// object's size, measured across the surface (u = 2^-53; the size is half of the longest side of
+// the box around it), or within twice the error bound of its t if that is more. At the end, t_max,
+// the same holds of what is before it. So a ray from a point that was computed to be on a surface,
+// as origin + t * direction, does not meet that surface there again, nor does one to such a point.
+// What is nearer than that is not seen. What is behind the start is never reported as ahead of it.
+// The point must not come from much farther away than the size and the coordinates are, as then it
+// is off by more, and the ray must be at an angle of more than 2^-24 with the surface. A ray with a
+// RayStart knows where it begins and needs none of this.
 //
 // With Precision::exact the origin is taken for the point that its doubles say. A surface is met
 // exactly if t_min < t holds for the exact t, rounded to a double. So a ray from a point which
@@ -150,7 +150,7 @@ void validate(const Ray& ray);
 std::size_t first_invalid(std::span<const Ray> rays);
 
 /// Returns the index of the first of several starts that is not of a hit in this scene, as far as
-/// that can be told, or their number if there is none.
+/// one can see, or their number if there is none.
 std::size_t first_invalid(const PreparedScene& scene, std::span<const RayStart> starts);
 
 /// A RayQueries object answers many rays one after the other, with memory that it keeps between
@@ -198,7 +198,7 @@ class RayQueries {
   /// that coincide with it there. It goes to the side that its direction says. With t_min = 0 the
   /// surface is at the ray's origin. A ray that goes on along its own line may also keep its origin
   /// and begin at t_min = t of the hit. Throws Error (invalid_argument) for a start of another
-  /// scene, as far as that can be told, also below.
+  /// scene, as far as one can see, also below.
   FullHit trace(const Ray& ray, const RayStart& start = {});
   /// Finds the nearest hits of several rays. There are as many starts as rays, or none.
   void trace(std::span<const Ray> rays, std::span<const RayStart> starts, std::span<FullHit> hits);

@@ -12,6 +12,7 @@
 #include "fuzz_custom.hpp"
 #include "fuzz_farm.hpp"
 #include "fuzz_input.hpp"
+#include "fuzz_traces.hpp"
 
 namespace {
 
@@ -71,8 +72,6 @@ class Session {
   void run_script();
   void use_prepared();
   void ask_rays();
-  void trace_rays(crt_prepared* prepared, const std::array<crt_ray, 3>& rays,
-                  const std::array<crt_hit, 3>& hits);
   void use_image();
 
   Input input_;
@@ -368,29 +367,7 @@ void Session::ask_rays() {
     require(hit == (count > 0));
     require(!hit || crossing.t == hits[i].t);
   }
-  if (first == CRT_OK) trace_rays(prepared, rays, hits);
-}
-
-void Session::trace_rays(crt_prepared* prepared, const std::array<crt_ray, 3>& rays,
-                         const std::array<crt_hit, 3>& hits) {
-  std::array<crt_full_hit, 3> full{};
-  require(crt_trace(prepared, rays.data(), 0, nullptr, 0, 3, full.data(), 0) == CRT_OK);
-  std::array<crt_start, 3> starts{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    require(full[i].t == hits[i].t);
-    starts[i] = full[i].start;
-    // What is in a start is for nobody else to write, but nothing else may come of it than an error.
-    if (input_.below(4) == 0) starts[i].bits[input_.below(2)] ^= 1ull << input_.below(64);
-  }
-  std::array<std::uint8_t, 3> blocked{};
-  std::array<std::size_t, 4> places{};
-  std::array<crt_full_hit, 8> crossings{};
-  crt_blocked(prepared, rays.data(), 0, starts.data(), starts.data(), 0, 3, blocked.data());
-  crt_trace_all(prepared, rays.data(), 0, starts.data(), 0, 3, crossings.data(), 8, places.data());
-  crt_trace(prepared, rays.data(), 0, starts.data(), 0, 3, full.data(), 0);
-  std::array<std::uint32_t, 3> entities{};
-  require(crt_locate(prepared, rays[0].origin, sizeof(crt_ray), 3, entities.data(), nullptr,
-                     nullptr) == CRT_OK);
+  if (first == CRT_OK) trace_rays(input_, prepared, rays, hits);
 }
 
 void Session::use_prepared() {

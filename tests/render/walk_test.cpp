@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "going_on.hpp"
+#include "continued_rays.hpp"
 #include "support/numbers.hpp"
 #include "support/solids.hpp"
 
@@ -79,12 +79,6 @@ Ray ray_through(Numbers& numbers, double size) {
   return {.origin = from, .direction = numbers.point(size) - from};
 }
 
-Scene scene_of(std::vector<Entity> entities, Precision precision) {
-  Scene scene{.entities = std::move(entities)};
-  scene.settings.precision = precision;
-  return scene;
-}
-
 /// Makes a square tile of a floor or wall, as a mesh of facets.
 Entity bumpy(Numbers& numbers) {
   std::vector<double> heights(49);
@@ -103,7 +97,7 @@ TEST_CASE("a walk by starts meets each place that crossings have: trees whose fa
       std::vector<Entity> entities;
       const int count = 1 + i % 3;
       for (int k = 0; k < count; ++k) entities.push_back(random.tree(2).entity());
-      RayQueries queries(prepare(scene_of(entities, precision)));
+      RayQueries queries(prepared(entities, precision));
       for (int k = 0; k < 20; ++k) check_walk(queries, ray_through(numbers, 4));
     }
   }
@@ -121,10 +115,10 @@ TEST_CASE("a walk by starts meets each place that crossings have: all kinds of s
       if (solid.is_closed)
         entities.push_back(solid.entity.transformed(translate(numbers.point(1))));
     }
-    RayQueries all(prepare(scene_of(entities, precision)));
+    RayQueries all(prepared(entities, precision));
     for (int i = 0; i < 200; ++i) check_walk(all, ray_through(numbers, 1.5));
     for (const Entity& entity : entities) {
-      RayQueries one(prepare(scene_of({entity}, precision)));
+      RayQueries one(prepared({entity}, precision));
       for (int i = 0; i < 60; ++i) check_walk(one, ray_through(numbers, 1));
     }
   }
@@ -140,7 +134,7 @@ TEST_CASE("a walk by starts meets each place that crossings have: instances") {
       entities.push_back(
           die.transformed(rotate(numbers.point(180))).transformed(translate(numbers.point(5))));
     }
-    RayQueries queries(prepare(scene_of(entities, precision)));
+    RayQueries queries(prepared(entities, precision));
     for (int i = 0; i < 400; ++i) check_walk(queries, ray_through(numbers, 5));
   }
 }
@@ -155,7 +149,7 @@ TEST_CASE("light that is mirrored in a closed room never leaves it") {
          Entity(Box{.corner_a = Vec3(-1.3), .corner_b = Vec3(1.3)})) +
         Entity(Cylinder{.from = {0.3, -1.3, 0.2}, .to = {0.3, 1.3, 0.2}, .radius = 0.3}) +
         Entity(Sphere{.center = {-0.6, -0.7, -0.6}, .radius = 0.6});
-    RayQueries queries(prepare(scene_of({room.transformed(turn)}, precision)));
+    RayQueries queries(prepared({room.transformed(turn)}, precision));
     Ray ray{.origin = Vec3(turn.translation) + Vec3(0.1, 0.2, -0.1),
             .direction = numbers.direction()};
     RayStart start;
@@ -181,7 +175,7 @@ TEST_CASE("between points on the walls of a convex room nothing lies, also not o
           Entity(Cylinder{.from = {0, -1, 0}, .to = {0, 1.2, 0}, .radius = 1.1})}) {
       const Entity room =
           (Entity(Box{.corner_a = Vec3(-3), .corner_b = Vec3(3)}) - hollow).transformed(turn);
-      RayQueries queries(prepare(scene_of({room}, precision)));
+      RayQueries queries(prepared({room}, precision));
       const auto wall_point = [&] {
         return queries.trace({.origin = numbers.point(0.3), .direction = numbers.direction()});
       };
@@ -206,8 +200,8 @@ TEST_CASE("between points on the walls of a convex room nothing lies, also not o
 
 TEST_CASE("what lies between is found, also on the surface of the end") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
-    RayQueries queries(prepare(scene_of(
-        {Sphere{.radius = 1}, Box{.corner_a = {-1, -3, -1}, .corner_b = {1, -2, 1}}}, precision)));
+    RayQueries queries(prepared(
+        {Sphere{.radius = 1}, Box{.corner_a = {-1, -3, -1}, .corner_b = {1, -2, 1}}}, precision));
     const FullHit top = queries.trace({.origin = {0.1, 5, 0.2}, .direction = {0, -1, 0}});
     const FullHit bottom = queries.trace({.origin = {0.1, -1.5, 0.2}, .direction = {0, 1, 0}});
     const FullHit box = queries.trace({.origin = {0.1, -1.5, 0.2}, .direction = {0, -1, 0}});
@@ -239,7 +233,7 @@ TEST_CASE("many rays with starts get what each of them gets alone") {
     entities.back() = entities.back().with_user(1000 + static_cast<std::uint64_t>(i));
   }
   for (const Precision precision : {Precision::standard, Precision::exact}) {
-    RayQueries queries(prepare(scene_of(entities, precision)));
+    RayQueries queries(prepared(entities, precision));
     std::vector<Ray> rays;
     for (int i = 0; i < 300; ++i) {
       rays.push_back({.origin = Vec3(-5, 0.01 * i - 1.5, 0.3),
@@ -269,9 +263,7 @@ TEST_CASE("a full hit has what the other queries have") {
   Numbers numbers(18);
   const Entity part =
       (Entity(Box{}).with_id(7) - Entity(Sphere{.radius = 1.2}).with_id(8)).with_user(5);
-  const PreparedScene prepared =
-      prepare(scene_of({part.with_id(3), Entity(Sphere{}).with_user(9)}, Precision::standard));
-  RayQueries queries(prepared);
+  RayQueries queries(prepared({part.with_id(3), Entity(Sphere{}).with_user(9)}));
   int met = 0;
   for (int i = 0; i < 300; ++i) {
     const Ray ray = ray_through(numbers, 1);
@@ -297,8 +289,8 @@ TEST_CASE("a full hit has what the other queries have") {
 }
 
 TEST_CASE("a start of another scene is refused, whatever is in it") {
-  RayQueries queries(prepare(scene_of({Sphere{}}, Precision::standard)));
-  const PreparedScene other = prepare(scene_of({Sphere{}, Box{}}, Precision::standard));
+  RayQueries queries(prepared({Sphere{}}));
+  const PreparedScene other = prepared({Sphere{}, Box{}});
   const Ray ray{.origin = {0, 0, -5}, .direction = {0, 0, 1}};
   const FullHit hit = trace(other, {.origin = {0.9, 0.9, -5}, .direction = {0, 0, 1}});
   REQUIRE(hit.entity_id == 1);
@@ -327,11 +319,11 @@ TEST_CASE("points are located in the innermost solid, by part and user number") 
       (Entity(Cylinder{.from = {0, -1, 0}, .to = {0, 1, 0}, .radius = 2}).with_id(21).with_user(4) -
        Entity(Cylinder{.from = {0, -2, 0}, .to = {0, 2, 0}, .radius = 1}).with_id(22));
   for (const Precision precision : {Precision::standard, Precision::exact}) {
-    RayQueries queries(prepare(scene_of(
+    RayQueries queries(prepared(
         {Entity(Sphere{.radius = 10}).with_user(1), nut.with_id(2),
          Entity(Box{.corner_a = {1.2, -0.3, -0.3}, .corner_b = {1.6, 0.3, 0.3}}).with_user(6),
          Plane{.normal = {0, 1, 0}, .position = {0, -20, 0}}},
-        precision)));
+        precision));
     const std::array<Vec3, 6> points = {Vec3(1.5, 0.8, 0), Vec3(0, 0, 0.2), Vec3(1.4, 0, 0),
                                         Vec3(0, -21, 0),   Vec3(0, 15, 0),  Vec3(-1.5, 0.2, 0.1)};
     std::array<Location, 6> found;
@@ -356,7 +348,7 @@ TEST_CASE("a point is located where the crossings of a ray from it say") {
   int inside = 0;
   for (int i = 0; i < 40; ++i) {
     const Entity tree = random.tree(3).entity();
-    RayQueries queries(prepare(scene_of({tree}, Precision::standard)));
+    RayQueries queries(prepared({tree}));
     std::vector<Hit> crossings;
     for (int k = 0; k < 50; ++k) {
       const Vec3 point = numbers.point(4);

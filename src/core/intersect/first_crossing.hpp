@@ -55,8 +55,7 @@ auto after_start(const FilterLine<Real>& line, const Real& t, const Real& error)
   const Mask after = t > line.begin;
   const Mask clear =
       distance > flattest_start * line.start_error && t - line.begin > errors_at_start * error;
-  return AfterStart<Mask>{.surely = after && clear,
-                          .unknown = after && !clear && !(distance <= line.least_start_error)};
+  return AfterStart<Mask>{.surely = after && clear, .unknown = after && !clear};
 }
 
 /// Returns the chord in a sphere that is not moved.

@@ -19,8 +19,7 @@ struct FilterLine {
   Real inverse_length;
   std::array<Real, 3> inverse;  ///< 1 / direction
   Real begin;                   ///< crossings before it do not count
-  Real least_start_error;       ///< StartPoint::t_error
-  Real start_error;             ///< with WorldRay::max_size_error
+  Real start_error;             ///< StartPoint::t_error with WorldRay::max_size_error
   Real certain_from;            ///< crossings after it and before certain_to count
   Real certain_to;              ///< finite
 };

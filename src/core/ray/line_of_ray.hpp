@@ -44,7 +44,6 @@ void set_line(const PlainRay<Real>& ray, const Real& begin, const Real& start_er
   line.inverse_length = sqrt(line.inverse_squared_length);
   for (std::size_t axis = 0; axis < 3; ++axis) line.inverse[axis] = 1.0 / line.direction[axis];
   line.begin = begin;
-  line.least_start_error = start_error;
   line.start_error = start_error + size_error;
   line.certain_from = farthest_start(begin, line.start_error);
   line.certain_to = finite_end(certain_end(end, end_error, size_error));

@@ -11,7 +11,7 @@ namespace crt::core {
 /// Returns the start of rays that go on from a hit.
 RayStart start_of(const RayHit& hit);
 
-/// Returns whether a start is nowhere or of a hit in this scene, as far as that can be told.
+/// Returns whether a start is nowhere or of a hit in this scene, as far as one can see.
 bool is_of_scene(const PreparedData& data, const RayStart& start);
 
 /// Returns what a start says, or nothing for one that is nowhere. Throws Error (invalid_argument)

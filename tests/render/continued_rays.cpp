@@ -1,4 +1,4 @@
-#include "going_on.hpp"
+#include "continued_rays.hpp"
 
 #include <algorithm>
 #include <array>

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crt/query.hpp"
@@ -15,6 +16,15 @@
 #include "support/numbers.hpp"
 
 namespace crt::test {
+
+/// Prepares a scene of some entities.
+inline PreparedScene prepared(std::vector<Entity> entities,
+                              Precision precision = Precision::standard) {
+  Scene scene;
+  scene.entities = std::move(entities);
+  scene.settings.precision = precision;
+  return prepare(scene);
+}
 
 /// A ConvexSolid lies within a ball of radius 1 or so about the origin, or reaches far beyond.
 struct ConvexSolid {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "going_on.hpp"
+#include "continued_rays.hpp"
 #include "support/numbers.hpp"
 
 using namespace crt;
@@ -28,9 +28,7 @@ constexpr double u = std::numeric_limits<double>::epsilon() / 2;
 void go_on_from(const ConvexSolid& solid, int count, std::uint64_t seed) {
   Numbers numbers(seed);
   for (const Placing& placing : placings(numbers)) {
-    const Scene scene{.entities = {solid.entity.transformed(placing.transform)}};
-    const PreparedScene prepared = prepare(scene);
-    RayQueries queries(prepared);
+    RayQueries queries(prepared({solid.entity.transformed(placing.transform)}));
     std::vector<Ray> outwards;
     std::vector<Ray> inwards;
     std::vector<Ray> back;
@@ -80,16 +78,15 @@ TEST_CASE("the same for many rays" * doctest::skip()) {
 }
 
 TEST_CASE("a box that ends at 0.1 does not block what starts on its top") {
-  const PreparedScene prepared =
-      prepare({.entities = {Box{.corner_a = {0, 0, 0}, .corner_b = {0.1, 0.1, 0.1}}}});
+  const PreparedScene scene = prepared({Box{.corner_a = {0, 0, 0}, .corner_b = {0.1, 0.1, 0.1}}});
   for (int i = 0; i < 162; ++i) {
     const double x = 0.1 * (i % 9 + 0.5) / 9;
     const Vec3 origin(0.03, 0.3 + 0.01 * i, 0.05);
     const Ray ray{.origin = origin, .direction = Vec3(x, 0.1, 0.04) - origin};
-    const std::optional<Hit> hit = intersect(prepared, ray);
+    const std::optional<Hit> hit = intersect(scene, ray);
     REQUIRE(hit);
     const Vec3 start = ray.origin + hit->t * ray.direction;
-    CHECK_FALSE(occluded(prepared, {.origin = start, .direction = {0, 1, 0}}));
+    CHECK_FALSE(occluded(scene, {.origin = start, .direction = {0, 1, 0}}));
   }
 }
 
@@ -101,15 +98,15 @@ TEST_CASE("a film of 100 u behind the start is met") {
     const double thickness = 100 * u * (size + place + size);
     const Box film{.corner_a = Vec3(place - size, place - thickness, place - size),
                    .corner_b = Vec3(place + size, place, place + size)};
-    const PreparedScene prepared = prepare({.entities = {film}});
+    const PreparedScene scene = prepared({film});
     const Vec3 target = Vec3(place) + Vec3(numbers.within(-1, 1), 0, numbers.within(-1, 1)) * size;
     const Vec3 origin = Vec3(place) + size * Vec3(0.2, numbers.within(0.5, 2), 0.1);
     Ray ray{.origin = origin, .direction = target - origin};
-    const std::optional<Hit> hit = intersect(prepared, ray);
+    const std::optional<Hit> hit = intersect(scene, ray);
     if (!hit) continue;
     CHECK(hit->entering);
     ray.origin = ray.origin + hit->t * ray.direction;
-    const std::optional<Hit> behind = intersect(prepared, ray);
+    const std::optional<Hit> behind = intersect(scene, ray);
     REQUIRE(behind);
     CHECK_FALSE(behind->entering);
   }
@@ -120,14 +117,14 @@ TEST_CASE("walks through plates that are turned and moved end, and miss none") {
   for (int i = 0; i < 60; ++i) {
     Transform turn = rotate(numbers.point(180));
     turn.translation = numbers.size(1, 1e4) * numbers.direction();
-    Scene scene;
+    std::vector<Entity> entities;
     const int plates = 5 + numbers.below(10);
     for (int plate = 0; plate < plates; ++plate) {
-      scene.entities.push_back(
+      entities.push_back(
           Entity(Box{.corner_a = Vec3(-5, plate, -5), .corner_b = Vec3(5, plate + 0.5, 5)})
               .transformed(turn));
     }
-    RayQueries queries(prepare(scene));
+    RayQueries queries(prepared(entities));
     const Placing placing{.name = "", .transform = turn, .size = 1};
     const Vec3 from = placing.to_world(numbers.point(1) + Vec3(0, -2, 0));
     const Vec3 to = placing.to_world(numbers.point(1) + Vec3(0, plates + 1, 0));
@@ -145,7 +142,7 @@ TEST_CASE("walks through plates that are turned and moved end, and miss none") {
 TEST_CASE("queries agree where t is among the smallest numbers") {
   Numbers numbers(31);
   const std::vector<double> ends = {5e-324, 1e-320, 2.2e-308, 1e-300, 0.0, 1e-200};
-  RayQueries queries(prepare({.entities = {Sphere{}, Box{{1, -1, -1}, {2, 1, 1}}}}));
+  RayQueries queries(prepared({Sphere{}, Box{.corner_a = {1, -1, -1}, .corner_b = {2, 1, 1}}}));
   for (int i = 0; i < 3000; ++i) {
     const auto end = [&] { return ends[static_cast<std::size_t>(numbers.below(6))]; };
     const double length = std::pow(10, numbers.within(-300, 300));
@@ -168,12 +165,11 @@ TEST_CASE("queries agree where t is among the smallest numbers") {
 
 TEST_CASE("of solids that touch, the nearest hit is the first of the crossings") {
   for (const bool turned_round : {false, true}) {
-    std::vector<Entity> boxes = {Box{{0, 0, 0}, {1, 1, 1}}, Box{{1, 0, 0}, {2, 1, 1}}};
+    std::vector<Entity> boxes = {Box{.corner_a = {0, 0, 0}, .corner_b = {1, 1, 1}},
+                                 Box{.corner_a = {1, 0, 0}, .corner_b = {2, 1, 1}}};
     if (turned_round) std::swap(boxes[0], boxes[1]);
     for (const Precision precision : {Precision::standard, Precision::exact}) {
-      Scene scene{.entities = boxes};
-      scene.settings.precision = precision;
-      RayQueries queries(prepare(scene));
+      RayQueries queries(prepared(boxes, precision));
       // From within one of them, where both are crossed at one place.
       const Ray ray{.origin = {0.5, 0.3, 0.4}, .direction = {1, 0.1, 0.05}};
       std::vector<Hit> all;
