@@ -1525,13 +1525,14 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * All queries treat a surface at the start of a ray alike. With CRT_PRECISION_STANDARD it counts as
  * behind the ray if it is within 32 u times the sum of the start's largest coordinate and the
  * object's size, measured across the surface (u = 2^-53; the size is half of the longest side of
- * the box around it), or within twice the error bound of its t if that is more. At the end, t_max,
- * the same holds of what is before it. So a ray from a point that was computed to be on a surface,
- * as origin + t * direction, does not meet that surface there again, nor does one to such a point.
- * What is nearer than that is not seen. What is behind the start is never reported as ahead of it.
- * The point must not come from much farther away than the size and the coordinates are, as then it
- * is off by more, and the ray must be at an angle of more than 2^-24 with the surface. A ray with a
- * crt_start knows where it begins and needs none of this.
+ * the box around it), or within twice the error bound of its t if that is more. That is at most 64
+ * u times the sum for lone primitives but implicit and custom ones. At the end, t_max, the same
+ * holds of what is before it. So a ray from a point that was computed as origin + t * direction of
+ * a hit does not meet that surface there again, nor does one to such a point. What is nearer than
+ * that is not seen. What is behind the start is never reported as ahead of it. The point must not
+ * come from much farther away than the size and the coordinates are, as then it is off by more, and
+ * the ray must be at an angle of more than 2^-24 with the surface. A ray with a crt_start knows
+ * where it begins and needs none of this.
  *
  * With CRT_PRECISION_EXACT the origin is taken for the point that its doubles say. A surface is met
  * exactly if t_min < t holds for the exact t, rounded to a double. So a ray from a point which

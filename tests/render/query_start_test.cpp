@@ -127,7 +127,8 @@ TEST_CASE(
       const bool meets = nearest(standard, ray) < near;
       CHECK((nearest(exact, ray) < near) == (at_start->t > 0));
       if (across <= 0) CHECK_FALSE(meets);
-      if (across > 32 * u * extent) CHECK(meets);
+      // Twice the error bound of a lone primitive's t is less.
+      if (across > 64 * u * extent) CHECK(meets);
       if (across > 0) ++(meets ? met : passed);
     }
   }
