@@ -22,7 +22,8 @@ void check(Precision precision) {
     const std::string name = name_of_agreement(kind);
     CAPTURE(name);
     const AgreementRecord record = measure_agreement(kind, precision, rays);
-    CHECK(record.hits > record.rays / 4);
+    // (Those that start on a surface do not meet it.)
+    CHECK(record.hits > record.rays / 5);
     for (const std::string& failure : record.failures) FAIL_CHECK(failure);
     CHECK(record.disagreements == 0);
   }

@@ -121,7 +121,7 @@ void account(const Crossing& found, const TrueCrossing& crossing, const TestRay&
 template <class Ask>
 bool ask_as_query(const TestRay& ray, CrossingList& out, const Ask& ask) {
   core::WorldRay world;
-  core::follow({.origin = ray.origin, .direction = ray.scale * ray.direction}, world);
+  core::follow({.origin = ray.origin, .direction = ray.scale * ray.direction}, {}, world);
   const bool inside_before = ask(world.origin, world.direction);
   const double factor =
       core::largest_component(world.direction) / core::largest_component(ray.direction);

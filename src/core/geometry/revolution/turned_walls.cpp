@@ -127,8 +127,14 @@ void TurnedWalls::append() {
     walls_.resize(before);
     open_.push_back(piece);
   }
-  meet_exactly(open_);
-  if (!are_even() && open_.size() < candidates_.size()) {
+  const bool has_arc =
+      std::any_of(candidates_.begin(), candidates_.end(), [&](std::uint32_t piece) {
+        return profile_.pieces()[piece].arc != Profile::no_arc;
+      });
+  // Where an arc is among them, walls that are found in two ways may be in the wrong order.
+  const bool takes_all = has_arc && !open_.empty();
+  if (!takes_all) meet_exactly(open_);
+  if (takes_all || (!are_even() && open_.size() < candidates_.size())) {
     walls_.clear();
     meet_exactly(candidates_);
   }
