@@ -109,6 +109,7 @@ struct FullHit {
   std::uint64_t user = 0;  ///< of Entity::with_user() innermost around what was hit, or 0
   RayStart start{};        ///< for rays that go on from here
 
+  /// Returns whether anything is hit.
   bool found() const { return side != HitSide::none; }
 };
 

@@ -150,12 +150,14 @@ bool is_through_start(const PlacedLeaf& leaf, const WorldRay& ray, double start_
 /// the leaf's space.
 inline bool is_at_start(const PlacedLeaf& leaf, const WorldRay& ray, double start_error,
                         const ObjectRay& object_ray, const Crossing& crossing) {
-  const double distance = crossing.t - ray.t_min;
-  if (start_error == 0) return distance <= crossing.error;
-  // Where an error is longer than that, it says nothing of the start.
+  const double distance = crossing.t - ray.t_min - crossing.error;
+  if (ray.is_input) {
+    // Where an error is longer than that, it says nothing of the start.
+    if (distance + crossing.error > flattest_start * start_error) return false;
+    if (distance <= (errors_at_start - 1) * crossing.error) return true;
+  }
   if (distance > flattest_start * start_error) return false;
-  return distance <= std::max(start_error + crossing.error, errors_at_start * crossing.error) ||
-         is_through_start(leaf, ray, start_error, object_ray, crossing);
+  return distance <= start_error || is_through_start(leaf, ray, start_error, object_ray, crossing);
 }
 
 /// A CsgEvaluation walks along a ray through one CSG object, from one crossing of its boundary to

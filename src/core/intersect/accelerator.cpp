@@ -182,8 +182,7 @@ bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit, RayWorkspace
   const double error = ray.end_error + size_error(ray, hit.object);
   const double distance = ray.t_max - hit.t;
   const double across = (distance - hit.error) * slope;
-  if (across <= error || (ray.max_size_error > 0 && distance <= errors_at_start * hit.error))
-    return true;
+  if (across <= error || (ray.is_input && distance <= errors_at_start * hit.error)) return true;
   // Whoever says on which surface a ray ends may have rounded its end to floats.
   constexpr double errors_of_known_end = 0x1p28;
   return is_known && across <= errors_of_known_end * error &&

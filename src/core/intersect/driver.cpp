@@ -331,6 +331,8 @@ RayHit Accelerator::gather_coincident(const WorldRay& ray, const RayHit& nearest
   near.erase(near.begin(), split);
   if (here.empty()) return nearest;
   first = here.front();
+  const double reach = first.t + tolerance_at_start(ray, first.t, first.error);
+  std::erase_if(near, [&](const RayHit& crossing) { return crossing.t > reach; });
   first.has_coincident = here.size() + near.size() > 1;
   return first;
 }

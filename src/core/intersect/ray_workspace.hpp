@@ -27,7 +27,6 @@ struct RayWorkspace {
   /// put a ray which starts there on either side of them.
   std::vector<RayHit> here;
   std::vector<RayHit> near;
-  std::vector<RayHit> listed;  ///< of first_listed()
   // sort_crossings() uses these.
   std::vector<std::uint32_t> numbers;
   std::vector<std::pair<std::uint32_t, RayHit>> turns;

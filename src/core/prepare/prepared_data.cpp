@@ -14,7 +14,6 @@
 #include "core/geometry/sphere/sphere.hpp"
 #include "core/intersect/accelerator.hpp"
 #include "core/math/float_environment.hpp"
-#include "core/ray/coincidence_tolerance.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
@@ -228,19 +227,6 @@ void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
 
 Surrounding PreparedData::innermost(const Vec3& point, RayWorkspace& work) const {
   return accelerator_->innermost(point, work);
-}
-
-RayHit PreparedData::first_listed(const WorldRay& ray, const RayHit& nearest,
-                                  RayWorkspace& work) const {
-  WorldRay piece = ray;
-  const double reach = nearest.t + coincidence_tolerance(ray, nearest.t, nearest.error);
-  piece.t_max = std::min(ray.t_max, std::nextafter(reach, infinity));
-  if (piece.t_max < ray.t_max) {
-    piece.end_error = 0;  // nothing ends there
-    piece.end_point = {};
-  }
-  crossings(piece, work.listed, work);
-  return work.listed.empty() ? nearest : work.listed.front();
 }
 
 bool PreparedData::all_pass_by(const Bounds& box) const {

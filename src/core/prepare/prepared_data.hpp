@@ -121,10 +121,6 @@ class PreparedData {
   /// Finds the innermost solid around a point, as the media of pictures are ordered along a ray.
   Surrounding innermost(const Vec3& point, RayWorkspace& work) const;
 
-  /// Returns the first of the crossings at the place of a nearest hit that has coincident ones, as
-  /// crossings() lists them.
-  RayHit first_listed(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
-
   /// Returns whether there is a surface at a point, or so near that rounding may decide. It looks
   /// along three axes across each other, as a line along a surface does not meet it.
   bool is_on_surface(const Vec3& point, RayWorkspace& work) const;

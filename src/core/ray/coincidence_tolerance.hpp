@@ -14,21 +14,27 @@ inline constexpr double most_reach = 0x1p-30;
 /// are one.
 inline constexpr double roundings_of_place = 4;
 
-/// Returns how far along the ray from a hit other crossings may be and yet be at its place. They
-/// may also be at the start of a secondary ray from the hit, whose origin is rounded. The tolerance
-/// is wide, as the next ray may meet at right angles what this one grazes. It only decides where to
-/// look. It is computed for one ray, or for as many as a Real has lanes.
+/// Returns how far along the ray from a hit other crossings may be and yet be at its place. It only
+/// decides where to look. It is computed for one ray, or for as many as a Real has lanes.
 template <class Real>
 [[gnu::always_inline]] inline Real coincidence_tolerance(const PlainRay<Real>& ray, const Real& t,
-                                                         const Real& error) {
+                                                         const Real& error,
+                                                         double relative_width = 2 * most_reach) {
   constexpr double error_factor = 4;
-  constexpr double relative_width = 2 * most_reach;
   const Real farthest =
       fma(abs(t), largest_component(ray.direction), largest_component(ray.origin));
   return error_factor * error + relative_width * farthest;
 }
 inline double coincidence_tolerance(const WorldRay& ray, double t, double error) {
   return coincidence_tolerance(plain_ray(ray), t, error);
+}
+
+/// Returns how far from a hit crossings may be that are at the start of a secondary ray from there,
+/// whose origin is rounded. That is wide, as the next ray may meet at right angles what this one
+/// grazes.
+inline double tolerance_at_start(const WorldRay& ray, double t, double error) {
+  constexpr double relative_width = 0x1p-40;
+  return coincidence_tolerance(plain_ray(ray), t, error, relative_width);
 }
 
 }  // namespace crt::core

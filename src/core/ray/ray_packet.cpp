@@ -14,7 +14,8 @@ WorldRay RayBatch::ray(std::size_t index) const {
                .t_min = t_min[group][lane],
                .t_max = t_max[group][lane],
                .end_error = end_errors[group][lane],
-               .max_size_error = max_size_error};
+               .max_size_error = max_size_error,
+               .is_input = is_input};
   if ((with_starts >> index & 1u) != 0) ray.start = starts[index];
   if ((with_ends >> index & 1u) != 0) {
     ray.end_point = ends[index].point;
@@ -37,6 +38,7 @@ void RayBatch::set(std::size_t index, const WorldRay& ray) {
     with_ends |= RayMask{1} << index;
   }
   max_size_error = ray.max_size_error;
+  is_input = ray.is_input;
 }
 
 template <>

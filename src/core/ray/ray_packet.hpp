@@ -64,6 +64,7 @@ struct RayBatch {
   Numbers start_errors;       ///< StartPoint::t_error
   Numbers end_errors{};       ///< as in WorldRay; infinity for the rays with an end
   double max_size_error = 0;  ///< as in WorldRay, of all rays
+  bool is_input = false;      ///< as in WorldRay, of all rays
   RayMask with_starts = 0;    ///< the rays with a start; the others start in free space
   std::array<StartPoint, packet_size> starts;
   /// A KnownEnd is an EndPoint with the error there.

@@ -75,6 +75,8 @@ struct WorldRay {
   /// have it, as their start and end are on surfaces that nobody knows. See
   /// Accelerator::size_error().
   double max_size_error = 0;
+  /// Says whether it is an input ray, whose start may be a crossing that was computed.
+  bool is_input = false;
 
   // A packet is made of one ray or of a RayBatch, which has these functions as well.
   const WorldRay& ray(std::size_t /*index*/) const { return *this; }

@@ -125,6 +125,7 @@ inline void follow(const Ray& users, const InputTolerance& tolerance, WorldRay& 
   ray.start.t_error = tolerance.error_at(plain_ray(ray), ray.t_min);
   ray.end_error = tolerance.error_at(plain_ray(ray), ray.t_max);
   ray.max_size_error = tolerance.max_size_error;
+  ray.is_input = tolerance.rounding > 0;
 }
 
 /// Converts valid input rays side by side. Returns false if one is too long or short for that. The

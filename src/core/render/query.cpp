@@ -34,9 +34,8 @@ class Query {
   }
 
   std::optional<Hit> nearest() const {
-    RayHit hit = data_.intersect(ray_, work_);
+    const RayHit hit = data_.intersect(ray_, work_);
     if (!hit.found()) return std::nullopt;
-    if (hit.has_coincident) hit = data_.first_listed(ray_, hit, work_);
     return described(hit);
   }
 

@@ -69,6 +69,7 @@ class QueryPacket {
  public:
   QueryPacket(const PreparedData& data, RayWorkspace& work) : data_(data), work_(work) {
     rays_.max_size_error = data.input_tolerance().max_size_error;
+    rays_.is_input = data.input_tolerance().rounding > 0;
   }
 
   /// Takes rays. `next` are to be taken after them, and are prefetched meanwhile.
@@ -103,7 +104,7 @@ class QueryPacket {
   /// Finds nearest hits. An answer is an std::optional<Hit>, a PlainHit, a HitPart or a FullHit.
   template <class Answer>
   void nearest(std::span<Answer> answers) {
-    find_hits();
+    data_.intersect_each(rays_, all(), hits_, work_);
     data_.prefetch_points(hits_, all());
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
@@ -122,7 +123,7 @@ class QueryPacket {
   void nearest(const Distances& answers) {
     FirstLeaves leaves;
     const bool are_resolved = data_.first_leaves(rays_, all(), leaves);
-    if (!are_resolved) find_hits();
+    if (!are_resolved) data_.intersect_each(rays_, all(), hits_, work_);
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t group = first / lane_count;
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
@@ -144,13 +145,6 @@ class QueryPacket {
 
  private:
   RayMask all() const { return RayPacket::all(count_); }
-
-  void find_hits() {
-    data_.intersect_each(rays_, all(), hits_, work_);
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (hits_[i].has_coincident) hits_[i] = data_.first_listed(rays_.ray(i), hits_[i], work_);
-    }
-  }
 
   /// Calls change(surface, ray) for each ray that has a start or end.
   template <class Change>
