@@ -131,7 +131,7 @@ TEST_CASE("exact capsule: a ray that starts on it has a root at 0 and the other 
       const Vec3 direction = random.direction();
       const bool inwards = glm::dot(point.normal, direction) < 0;
       const core::FaceStart start{.face = crossing.face,
-                                 .side = inwards ? core::Side::inside : core::Side::outside};
+                                  .side = inwards ? core::Side::inside : core::Side::outside};
       const auto found = exact_crossings(capsule, {}, point.position, direction, start);
       REQUIRE((found.size() == 2 || (found.empty() && !inwards)));
       if (found.empty()) continue;

@@ -197,7 +197,7 @@ TEST_CASE(
     if (std::abs(glm::dot(direction, normal)) < 1e-6) continue;
     const bool inwards = glm::dot(direction, normal) < 0;
     const core::FaceStart start{.face = 0,
-                               .side = inwards ? core::Side::inside : core::Side::outside};
+                                .side = inwards ? core::Side::inside : core::Side::outside};
     const core::CrossingList found = exact_crossings(cone, {}, point, direction, start);
     core::ObjectRay ray{.origin = point, .direction = direction};
     ray.start = start;

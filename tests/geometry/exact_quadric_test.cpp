@@ -184,7 +184,7 @@ TEST_CASE("exact quadric: a ray that starts on it meets it again where the ident
       if (std::abs(glm::dot(point.normal, d)) < 1e-3) continue;
       const bool inwards = glm::dot(point.normal, d) < 0;
       const core::FaceStart start{.face = 0,
-                                 .side = inwards ? core::Side::inside : core::Side::outside};
+                                  .side = inwards ? core::Side::inside : core::Side::outside};
       const auto found = exact_crossings(placed.quadric, {}, point.position, d, start);
       const QuadricTerms terms(placed.quadric, RealVec(point.position), RealVec(d));
       if (magnitude(terms.a) * placed.size < magnitude(terms.b) * Real{1e-9}) continue;

@@ -111,7 +111,7 @@ TEST_CASE("exact sphere: a ray that starts on it meets it again where the identi
     const Vec3 direction = random.direction();
     const bool inwards = glm::dot(point, direction) < 0;
     const core::FaceStart start{.face = 0,
-                               .side = inwards ? core::Side::inside : core::Side::outside};
+                                .side = inwards ? core::Side::inside : core::Side::outside};
     const core::CrossingList found = exact_crossings(Sphere{}, {}, point, direction, start);
     const RealVec p(point);
     const RealVec d(direction);

@@ -8,15 +8,15 @@
 namespace crt::core {
 
 FaceStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
-                       std::span<const FaceSurface> face_surfaces, const StartPoint& start) {
+                        std::span<const FaceSurface> face_surfaces, const StartPoint& start) {
   if (start.surface == nothing) return {};
   const auto on_face = [&](std::uint32_t face) {
     const bool outside =
         (start.side == Side::outside) != leaf.surface_of(face, face_surfaces).flipped;
     return FaceStart{.face = face,
-                    .side = outside ? Side::outside : Side::inside,
-                    .on_face = start.leaf == index && start.face == face,
-                    .t_error = start.t_error};
+                     .side = outside ? Side::outside : Side::inside,
+                     .on_face = start.leaf == index && start.face == face,
+                     .t_error = start.t_error};
   };
   if (start.leaf == index) return on_face(start.face);
   // A surface has the number of the first face that lies on it.

@@ -30,8 +30,8 @@ struct FaceStart {
   double t_error = 0;
 };
 
-/// The start of an input ray may be a crossing that was computed, with an error like that of the one
-/// that is compared with it. So twice the error may lie between them.
+/// The start of an input ray may be a crossing that was computed, with an error like that of a
+/// crossing beside it. So twice that error may lie between them.
 inline constexpr double errors_at_start = 2;
 
 /// Computes ObjectRay::from_center() for a ray or for lanes.

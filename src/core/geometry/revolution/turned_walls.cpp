@@ -127,10 +127,9 @@ void TurnedWalls::append() {
     walls_.resize(before);
     open_.push_back(piece);
   }
-  const bool has_arc =
-      std::any_of(candidates_.begin(), candidates_.end(), [&](std::uint32_t piece) {
-        return profile_.pieces()[piece].arc != Profile::no_arc;
-      });
+  const bool has_arc = std::any_of(
+      candidates_.begin(), candidates_.end(),
+      [&](std::uint32_t piece) { return profile_.pieces()[piece].arc != Profile::no_arc; });
   // Where an arc is among them, walls that are found in two ways may be in the wrong order.
   const bool takes_all = has_arc && !open_.empty();
   if (!takes_all) meet_exactly(open_);
