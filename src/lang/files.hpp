@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "crt/entity.hpp"
@@ -27,7 +28,10 @@ struct MeshWay {
   double weld = 0;
   double stitch = 0;
 
-  friend auto operator<=>(const MeshWay&, const MeshWay&) = default;
+  friend bool operator<(const MeshWay& a, const MeshWay& b) {
+    return std::tie(a.smooth, a.fill, a.weld, a.stitch) <
+           std::tie(b.smooth, b.fill, b.weld, b.stitch);
+  }
 };
 
 class Files {
