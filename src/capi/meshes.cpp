@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "capi/numbers.hpp"
 #include "capi/structs.hpp"
 
 namespace crt::capi {
@@ -101,10 +102,6 @@ const MeshReport& report_of(const crt_entity* entity) {
   return *report;
 }
 
-void put(const Vec3& place, double (&out)[3]) {
-  for (int axis = 0; axis < 3; ++axis) out[axis] = place[axis];
-}
-
 }  // namespace
 
 }  // namespace crt::capi
@@ -158,10 +155,10 @@ crt_status crt_entity_mesh_report(crt_entity* entity, crt_mesh_report* report) {
     values.welded_triangles = found.welded_triangles;
     values.stitched_vertices = found.stitched_vertices;
     values.repeated_triangles = found.repeated_triangles;
-    put(found.first_repeated, values.first_repeated);
+    put(values.first_repeated, found.first_repeated);
     values.shells = found.shells;
     values.overlapping_shells = found.overlapping_shells;
-    put(found.first_overlap, values.first_overlap);
+    put(values.first_overlap, found.first_overlap);
     fill_in(report, "report", values);
   });
 }
