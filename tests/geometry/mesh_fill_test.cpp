@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/geometry/exact_shape.hpp"
+#include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/shape.hpp"
 #include "crt/error.hpp"
 #include "crt/mesh.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/mesh/triangles.hpp"
 #include "crt/mesh.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/scene.hpp"
