@@ -18,6 +18,16 @@ from .options import Log, Path, Progress, Region, make_options
 from .rays import FULL_HIT, HIT, RAY, START, Batch, Ray, Rays, points_of
 
 
+def _answers(out: NDArray[np.void] | None, layout: np.dtype[Any], rays: Batch) -> Batch:
+    """Returns where hits of rays are to be written: in `out`, or in a new array."""
+    answers = Batch(np.empty(rays.shape, layout) if out is None else out, layout, "hits")
+    if answers.shape != rays.shape or not answers.array.flags.writeable:
+        raise ValueError(
+            f"hits of shape {answers.shape} cannot be written for rays of {rays.shape}"
+        )
+    return answers
+
+
 def _starts(starts: NDArray[np.void] | None, rays: Batch, name: str) -> Batch | None:
     """Returns where the starts of rays are."""
     if starts is None:
@@ -119,15 +129,9 @@ class Prepared(Handle):
         error says, `out` may have been written in part.
         """
         questions = Batch(rays, RAY, "rays")
-        if out is None:
-            out = np.empty(questions.shape, HIT)
-        answers = Batch(out, HIT, "hits")
-        if answers.shape != questions.shape or not out.flags.writeable:
-            raise ValueError(
-                f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}"
-            )
+        answers = _answers(out, HIT, questions)
         _queries.intersect(self._handle, questions, answers)
-        return out
+        return answers.array
 
     def hit_parts(self, rays: Ray | NDArray[Any]) -> NDArray[np.void]:
         """Finds on which part of an entity each ray's nearest hit is, as an array of crt.HIT_PART.
@@ -180,15 +184,9 @@ class Prepared(Handle):
         """
         questions = Batch(rays, RAY, "rays")
         begins = _starts(starts, questions, "starts")
-        if out is None:
-            out = np.empty(questions.shape, FULL_HIT)
-        answers = Batch(out, FULL_HIT, "hits")
-        if answers.shape != questions.shape or not out.flags.writeable:
-            raise ValueError(
-                f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}"
-            )
+        answers = _answers(out, FULL_HIT, questions)
         _queries.trace(self._handle, questions, begins, answers)
-        return out
+        return answers.array
 
     def blocked(
         self,
