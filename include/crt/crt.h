@@ -182,9 +182,9 @@ CRT_API crt_diagnostics* crt_diagnostics_retain(crt_diagnostics* diagnostics);
 /** Drops a reference to diagnostics, and with the last one all their texts. */
 CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
 
-/** Adds a reference to a profile and returns it. */
+/** Adds a reference to a profile and returns it. Since 1.1. */
 CRT_API crt_profile* crt_profile_retain(crt_profile* profile);
-/** Removes a reference. */
+/** Removes a reference. Since 1.1. */
 CRT_API void crt_profile_release(crt_profile* profile);
 
 /** @} */
@@ -578,9 +578,11 @@ CRT_API crt_status crt_mesh_from_triangles_rule(const double* positions, size_t 
                                                 const uint32_t* indices, size_t triangle_count,
                                                 int32_t rule, crt_entity** out);
 
-/** Fills in a mesh of nothing. */
+/** Fills in a mesh of nothing. Since 1.1. */
 CRT_API crt_status crt_mesh_init(crt_mesh* mesh, size_t struct_size);
-/** Makes a mesh with normals, (u, v) or materials, otherwise as crt_mesh_create() does. */
+/**
+ * Makes a mesh with normals, (u, v) or materials, otherwise as crt_mesh_create() does. Since 1.1.
+ */
 CRT_API crt_status crt_mesh_create_with(const crt_mesh* mesh, crt_entity** out);
 
 /** Says what is inside of a mesh, and how its triangles are put right before. Since 1.1. */
@@ -641,15 +643,19 @@ CRT_API crt_status crt_entity_mesh_warnings(crt_entity* entity, char* text, size
  * pieces, before you make entities of it: these keep what it is at the time. A contour is closed by
  * a straight piece, unless its last corner repeats the first. The even-odd rule says what is
  * inside: all points from which a line to infinity crosses an odd number of pieces. So a contour
- * within another is a hole, whichever way round either goes.
+ * within another is a hole, whichever way round either goes. Since 1.1.
  */
 CRT_API crt_status crt_profile_create(crt_profile** out);
-/** Begins a contour at a corner. */
+/** Begins a contour at a corner. Since 1.1. */
 CRT_API crt_status crt_profile_move_to(crt_profile* profile, double x, double y);
-/** Adds a straight piece from the last corner to another. It fails before a contour begins. */
+/**
+ * Adds a straight piece from the last corner to another. It fails before a contour begins.
+ * Since 1.1.
+ */
 CRT_API crt_status crt_profile_line_to(crt_profile* profile, double x, double y);
 /**
  * Adds an arc of a circle from the last corner to another. It is an error before a contour begins.
+ * Since 1.1.
  * @param bulge  the tangent of a quarter of the arc's angle: above 0 for an arc that turns from x
  *               to y, and below 0 for one that turns from y to x. It is 1 for half a circle, and
  *               sqrt(2) - 1 for a quarter. 0 makes a straight piece.
@@ -657,7 +663,7 @@ CRT_API crt_status crt_profile_line_to(crt_profile* profile, double x, double y)
 CRT_API crt_status crt_profile_arc_to(crt_profile* profile, double x, double y, double bulge);
 /**
  * Adds a cubic Bezier curve from the last corner to (x, y), with the control points (x1, y1) and
- * (x2, y2). It becomes arcs of circles that continue one another's directions.
+ * (x2, y2). It becomes arcs of circles that continue one another's directions. Since 1.1.
  * @param deviation  how far the arcs and the curve may be away from each other; 0 for a 10000th of
  *                   the larger side of the box around the four points, or 2^-44 of their largest
  *                   coordinate if that is more. It is an error if it is below 2^-32 of that side,
@@ -665,7 +671,10 @@ CRT_API crt_status crt_profile_arc_to(crt_profile* profile, double x, double y, 
  */
 CRT_API crt_status crt_profile_cubic_to(crt_profile* profile, double x1, double y1, double x2,
                                         double y2, double x, double y, double deviation);
-/** Adds a quadratic Bezier curve with the control point (x1, y1), as crt_profile_cubic_to(). */
+/**
+ * Adds a quadratic Bezier curve with the control point (x1, y1), as crt_profile_cubic_to().
+ * Since 1.1.
+ */
 CRT_API crt_status crt_profile_quadratic_to(crt_profile* profile, double x1, double y1, double x,
                                             double y, double deviation);
 
@@ -681,6 +690,7 @@ typedef enum crt_fill_rule {
  * and other curves become such arcs. By the nonzero rule, contours are cut where they cross, so
  * that by the even-odd rule they enclose what they should. The message of an error names the
  * character of the path. Begin a contour by crt_profile_move_to() before you add further pieces.
+ * Since 1.1.
  * @param path       `length` bytes
  * @param fill       a crt_fill_rule
  * @param deviation  as for crt_profile_cubic_to(); with 0 each curve has the default for its size
@@ -700,6 +710,7 @@ typedef enum crt_text_alignment {
  * one another from left to right. A letter that the font lacks is the box that it has for that.
  * The library of FreeType is loaded when this is first called: without it, this is
  * CRT_ERROR_UNSUPPORTED. Begin a contour by crt_profile_move_to() before you add further pieces.
+ * Since 1.1.
  * @param text          `length` bytes of UTF-8, with lines ended by "\n"
  * @param font          the path of a font file; NULL for the library's own, Liberation Sans
  * @param size          the size of the em, above 0; capital letters are about 0.7 of it high
@@ -713,11 +724,11 @@ CRT_API crt_status crt_profile_text(crt_profile* profile, const char* text, size
                                     const char* font, double size, int32_t alignment,
                                     double line_spacing, double deviation, size_t* missing);
 
-/** Tells how many contours a profile has. */
+/** Tells how many contours a profile has. Since 1.1. */
 CRT_API crt_status crt_profile_contour_count(const crt_profile* profile, size_t* count);
 /**
  * Tells the corners of a contour, three numbers each: x, y, and the bulge of the piece that leads
- * to it from the corner before.
+ * to it from the corner before. Since 1.1.
  * @param index     below the number of contours
  * @param corners   an array of 3 * `capacity` numbers; NULL if that is 0
  * @param count     gets how many corners there are, which may be more than `capacity`; only so many
@@ -732,7 +743,7 @@ CRT_API crt_status crt_profile_contour(const crt_profile* profile, size_t index,
  * quarter of a turn from there about the axis. So from (0, 0, a) to (0, 0, b), with a < b, x and y
  * are those of the scene, and nothing is rounded. Straight pieces make flat faces, and arcs make
  * parts of cylinders. Errors of the profile are reported here, with the numbers of the contour and
- * the corner.
+ * the corner. Since 1.1.
  */
 CRT_API crt_status crt_extrusion_create(const crt_profile* profile, const double from[3],
                                         const double to[3], crt_entity** out);
@@ -742,7 +753,7 @@ CRT_API crt_status crt_extrusion_create(const crt_profile* profile, const double
  * height along the axis from `from` on, in scene units. The turn starts where angles about the axis
  * begin, as for crt_extrusion_create(). Straight pieces make flat faces and parts of cylinders and
  * cones, and arcs make parts of spheres and tori. Errors of the profile are reported here, with the
- * numbers of the contour and the corner.
+ * numbers of the contour and the corner. Since 1.1.
  * @param angle  in radians, above 0 and at most a whole turn, which is 2 pi
  */
 CRT_API crt_status crt_revolution_create(const crt_profile* profile, const double from[3],
@@ -754,7 +765,7 @@ CRT_API crt_status crt_revolution_create(const crt_profile* profile, const doubl
  * and `rows` along z. The first column and row lie at the box's lower x and z, the last ones at the
  * upper. A height is from 0, at the box's lower y, to 1, at its upper. They must not all be 0.
  * Between four heights there are two triangles, which meet in the line from lower x and z to upper
- * x and z.
+ * x and z. Since 1.1.
  * @param heights  columns * rows numbers, row by row
  * @param columns  at least 2
  * @param rows     at least 2; columns * rows must be at most 2^27
@@ -841,7 +852,7 @@ CRT_API crt_status crt_difference_create(crt_entity* from, crt_entity* const* cu
 /**
  * Writes the map that moves nothing. As with all crt_affine_* functions, the map is the three rows
  * of a 3x4 matrix for crt_entity_with_transform(), which checks it. A function that returns nothing
- * does nothing if a pointer is NULL.
+ * does nothing if a pointer is NULL. Since 1.1.
  *
  * @code{.c}
  * double turn[12], lift[12], both[12];
@@ -853,18 +864,21 @@ CRT_API crt_status crt_difference_create(crt_entity* from, crt_entity* const* cu
  * @endcode
  */
 CRT_API void crt_affine_identity(double out[12]);
-/** Writes the map that moves by an offset. */
+/** Writes the map that moves by an offset. Since 1.1. */
 CRT_API void crt_affine_translation(const double by[3], double out[12]);
-/** Writes the map that scales about the origin, by a factor for each axis. */
+/** Writes the map that scales about the origin, by a factor for each axis. Since 1.1. */
 CRT_API void crt_affine_scaling(const double by[3], double out[12]);
 /**
  * Writes the rotation about an axis through the origin, of any length but 0, by an angle in
  * radians. It is left-handed, as crt::rotate in C++ and `rotate` in scripts: a positive angle turns
  * x to y about z, y to z about x, and z to x about y, which is counter-clockwise for one who looks
- * along the axis. Quarter turns are exact where the axis is x, y or z.
+ * along the axis. Quarter turns are exact where the axis is x, y or z. Since 1.1.
  */
 CRT_API crt_status crt_affine_rotation(const double axis[3], double angle, double out[12]);
-/** Writes the map that does what `first` does, and `then` the other. `out` may be one of them. */
+/**
+ * Writes the map that does what `first` does, and `then` the other. `out` may be one of them.
+ * Since 1.1.
+ */
 CRT_API void crt_affine_product(const double first[12], const double then[12], double out[12]);
 
 /** Makes the entity moved by an affine map with an inverse, after whatever moved it before. */
@@ -891,7 +905,7 @@ CRT_API crt_status crt_entity_with_user(crt_entity* entity, uint64_t user, crt_e
 /** Returns 1 if the entity has an inside, and 0 if a part of it is a mere surface or it is NULL. */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
 /**
- * Says why an entity has no inside: of a mesh which edge is open, and how many are.
+ * Says why an entity has no inside: of a mesh which edge is open, and how many are. Since 1.1.
  * @param text      an array of `capacity` bytes, which gets as much of the text as fits, and a 0
  *                  after it; NULL if that is 0
  * @param length    gets the length of the whole text without the 0; it is 0 for a solid
@@ -1133,7 +1147,7 @@ CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script
  * equal corners are left out. What is inside says CRT_FILL_NONZERO if all shells are turned
  * outwards, but for cavities, and else CRT_FILL_EVEN_ODD; crt_entity_mesh_report() has which.
  * Material libraries and pictures that cannot be read are left out, too. Without options they are
- * looked for in the directory of the file and those below.
+ * looked for in the directory of the file and those below. Since 1.1.
  * @param path     where the file is
  * @param options  NULL opens the file of that path. With options, the file is looked for like those
  *                 of a script in the current directory: resource_directories, allow_outside_files,
@@ -1144,6 +1158,7 @@ CRT_API crt_status crt_mesh_load(const char* path, const crt_script_options* opt
                                  crt_entity** out);
 /**
  * Makes an entity of a mesh file whose normals are computed, otherwise as crt_mesh_load() does.
+ * Since 1.1.
  * @param smooth  as in crt_mesh
  */
 CRT_API crt_status crt_mesh_load_smooth(const char* path, const crt_script_options* options,
@@ -1656,8 +1671,8 @@ typedef struct crt_start {
 
 /**
  * A full hit is all that is known of where a ray meets a surface. A miss has t = INFINITY,
- * UINT32_MAX for the three ids, and 0 elsewhere. The layout is fixed for ever: 112 bytes. Since
- * 1.1.
+ * UINT32_MAX for the three ids, and 0 elsewhere. The layout is fixed for ever: 112 bytes.
+ * Since 1.1.
  */
 typedef struct crt_full_hit {
   double t;           /**< in units of |direction| */
@@ -1679,8 +1694,8 @@ typedef struct crt_full_hit {
  * ends, in both tiers, and meets each place that crt_crossings() lists. With t_min = 0 the surface
  * is at the ray's origin: give the position of the hit. A ray that goes on along its own line may
  * also keep its origin and begin at t_min = t of the hit. If any ray is invalid, or a start is not
- * of this scene as far as one can see, no ray is traced, and the message names its index. Since
- * 1.1.
+ * of this scene as far as one can see, no ray is traced, and the message names its index.
+ * Since 1.1.
  * @param starts        as many as rays, or NULL; they may lie in `hits`, each in its own ray's hit
  * @param start_stride  bytes from one to the next; 0 means one after the other
  */

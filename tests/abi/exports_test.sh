@@ -18,6 +18,19 @@ while IFS= read -r name; do
     fail "$name is no longer of 1.0"
 done <of_1_0.txt
 
+# The header says so of each function.
+awk '/^ *\/\*\*/ { comment = "" }
+     { comment = comment " " $0 }
+     /^CRT_API/ { open = 1 }
+     open && match($0, /crt_[a-z0-9_]+\(/) {
+       name = substr($0, RSTART, RLENGTH - 1)
+       print (comment ~ /Since[ *]+1\.1\./ ? "CRT_1.1" : "CRT_1.0"), name
+       open = 0
+       comment = ""
+     }' "$header" | sort >said.txt
+diff said.txt <(sed -nE 's/^T (.*)@@(.*)/\2 \1/p' symbols.txt | sort) ||
+  fail "< is what crt.h says of when a function came, > what libcrt.so has"
+
 # This is the header without comments and directives, each declaration on a line.
 sed '/^#/d' "$header" | "$CC" -E -P -x c - | tr '\n' ' ' | tr ';' '\n' >header.txt
 grep -oE 'CRT_API.*\bcrt_[a-z0-9_]+ ?\(' header.txt | grep -oE 'crt_[a-z0-9_]+ ?\($' | tr -d ' (' |
@@ -33,7 +46,7 @@ readelf -d "$LIBRARY" >dynamic.txt
 grep -qF 'soname: [libcrt.so.1]' dynamic.txt || fail "the soname is not libcrt.so.1"
 ! grep TEXTREL dynamic.txt || fail "its code is changed when it is loaded"
 
-allowed='libembree[34]\.so\.[0-9]+|libtbb\.so\.[0-9]+|libfmt\.so\.[0-9]+|libstdc\+\+\.so\.6'
+allowed='libembree[34]\.so\.[0-9]+|libtbb\.so\.[0-9]+|libstdc\+\+\.so\.6'
 allowed+='|libz\.so\.1|libexpat\.so\.1|libm\.so\.6|libgcc_s\.so\.1|libc\.so\.6|ld-linux.*'
 [[ -z ${SANITIZE:-} ]] || allowed+='|lib(a|ub|t)san\.so\.[0-9]+'
 grep -oP 'NEEDED.*\[\K[^]]+' dynamic.txt >needed.txt
