@@ -1,6 +1,4 @@
 // This file implements the images of the C interface.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -10,6 +8,7 @@
 
 #include "capi/structs.hpp"
 #include "crt/validate.hpp"
+#include "text/format.hpp"
 
 namespace crt::capi {
 
@@ -17,7 +16,7 @@ namespace {
 
 int to_side(std::uint32_t pixels, const char* argument) {
   if (pixels > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) {
-    reject(argument, fmt::format("is {}, which no picture can have", pixels));
+    reject(argument, text::format("is {}, which no picture can have", pixels));
   }
   return static_cast<int>(pixels);
 }
@@ -26,7 +25,7 @@ int to_side(std::uint32_t pixels, const char* argument) {
 std::size_t stride_or_default(std::size_t stride, std::size_t row_bytes, std::size_t rows) {
   if (stride == 0) return row_bytes;
   if (stride < row_bytes)
-    reject("row_stride", fmt::format("is {}, but a row has {} bytes", stride, row_bytes));
+    reject("row_stride", text::format("is {}, but a row has {} bytes", stride, row_bytes));
   if (stride > std::numeric_limits<std::size_t>::max() / 2 / std::max<std::size_t>(rows, 1)) {
     reject("row_stride", "is longer than memory");
   }
@@ -62,7 +61,7 @@ crt_status crt_image_create(uint32_t width, uint32_t height, const float* pixels
       const std::span<float> row = image.pixels().subspan(y * row_values, row_values);
       std::memcpy(row.data(), reinterpret_cast<const char*>(pixels) + y * stride, row.size_bytes());
       if (!std::all_of(row.begin(), row.end(), [](float value) { return std::isfinite(value); })) {
-        reject("pixels", fmt::format("must be finite, but row {} is not", y));
+        reject("pixels", crt::text::format("must be finite, but row {} is not", y));
       }
     }
     *out = new crt_image(std::move(image));

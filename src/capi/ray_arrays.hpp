@@ -1,8 +1,6 @@
 // Rays, their starts and their answers lie in memory of the caller, which need not be aligned.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -15,6 +13,7 @@
 
 #include "capi/structs.hpp"
 #include "crt/query.hpp"
+#include "text/format.hpp"
 
 namespace crt::capi {
 
@@ -27,7 +26,7 @@ class Places {
       : first_(first), stride_(stride == 0 ? size : stride) {
     if (count > 0) require(first, argument);
     if (stride_ < size) {
-      reject(argument, fmt::format("are {} bytes apart, but each has {}", stride_, size));
+      reject(argument, text::format("are {} bytes apart, but each has {}", stride_, size));
     }
     if (count > std::numeric_limits<std::size_t>::max() / 2 / stride_) {
       reject(argument, "are more than memory can hold");
@@ -130,7 +129,7 @@ class Rays {
     try {
       validate(to_ray(places_[index]));
     } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("rays[{}]: {}", index, error.what()), "rays");
+      throw Error(error.code(), text::format("rays[{}]: {}", index, error.what()), "rays");
     }
     throw Error(ErrorCode::invalid_argument, "rays changed while they were asked", "rays");
   }
@@ -169,8 +168,8 @@ class Starts {
       const std::size_t index = first_invalid(scene, piece.all());
       if (index == piece.count) continue;
       throw Error(ErrorCode::invalid_argument,
-                  fmt::format("{}[{}] must be of a hit in the same prepared scene", argument_,
-                              first + index),
+                  text::format("{}[{}] must be of a hit in the same prepared scene", argument_,
+                               first + index),
                   argument_);
     }
   }

@@ -1,19 +1,18 @@
 // This file implements the scenes of the C interface.
-#include <fmt/format.h>
-
 #include <atomic>
 #include <optional>
 
 #include "capi/structs.hpp"
 #include "crt/source_code.hpp"
 #include "crt/validate.hpp"
+#include "text/format.hpp"
 
 namespace crt::capi {
 
 namespace {
 
 void require_index(std::size_t index, std::size_t count) {
-  if (index >= count) reject("index", fmt::format("is {}, but there are only {}", index, count));
+  if (index >= count) reject("index", text::format("is {}, but there are only {}", index, count));
 }
 
 /// Returns the handle of the background's picture, which the scene keeps, or NULL if it has none.

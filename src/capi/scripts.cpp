@@ -1,6 +1,4 @@
 // This file implements scripts through the C interface, and their diagnostics.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +10,7 @@
 #include "capi/structs.hpp"
 #include "crt/mesh_file.hpp"
 #include "crt/script.hpp"
+#include "text/format.hpp"
 
 namespace crt::capi {
 
@@ -119,8 +118,8 @@ Error error_of(const std::vector<Diagnostic>& diagnostics) {
   const SourcePlace& place = first->place;
   return {script_code(first->code),
           place.line == 0
-              ? fmt::format("{}: {}", place.file, first->message)
-              : fmt::format("{}:{}:{}: {}", place.file, place.line, place.column, first->message)};
+              ? text::format("{}: {}", place.file, first->message)
+              : text::format("{}:{}:{}: {}", place.file, place.line, place.column, first->message)};
 }
 
 /// Hands out the diagnostics, then the scene or the error.
@@ -141,7 +140,7 @@ void hand_out(ScriptResult result, crt_diagnostics** diagnostics, crt_scene** ou
 const Diagnostic& diagnostic_at(const crt_diagnostics* diagnostics, std::size_t index) {
   require(diagnostics, "diagnostics");
   const std::size_t count = diagnostics->list.size();
-  if (index >= count) reject("index", fmt::format("is {}, but there are only {}", index, count));
+  if (index >= count) reject("index", text::format("is {}, but there are only {}", index, count));
   return diagnostics->list[index];
 }
 
@@ -250,7 +249,7 @@ crt_status crt_diagnostics_get_call(const crt_diagnostics* diagnostics, size_t i
     const crt::Diagnostic& source = diagnostic_at(diagnostics, index);
     if (call_index >= source.calls.size()) {
       reject("call_index",
-             fmt::format("is {}, but there are only {}", call_index, source.calls.size()));
+             crt::text::format("is {}, but there are only {}", call_index, source.calls.size()));
     }
     const auto& [name, place] = source.calls[call_index];
     crt_diagnostic_call values{};

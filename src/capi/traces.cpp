@@ -1,7 +1,5 @@
 // This file implements what the C interface has for programs that trace rays themselves: hits that
 // rays continue from, and in what points are.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "capi/ray_arrays.hpp"
+#include "text/format.hpp"
 
 // The layout is frozen for ever, and equal in C and C++.
 static_assert(sizeof(crt_start) == 16 && sizeof(crt::RayStart) == sizeof(crt_start));
@@ -102,9 +101,10 @@ crt_status crt_trace_all(crt_prepared* prepared, const crt_ray* rays, size_t ray
     for (const auto& of_ray : found) total += of_ray.size();
     if (total > capacity) {
       first[count] = total;
-      throw crt::Error(crt::ErrorCode::limit,
-                       fmt::format("there are {} crossings, but capacity is {}", total, capacity),
-                       "capacity");
+      throw crt::Error(
+          crt::ErrorCode::limit,
+          crt::text::format("there are {} crossings, but capacity is {}", total, capacity),
+          "capacity");
     }
     std::size_t place = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -129,7 +129,7 @@ crt_status crt_locate(crt_prepared* prepared, const double* points, size_t strid
       crt::Vec3& point = questions[i];
       std::memcpy(&point, places[i], sizeof point);
       if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-        reject(fmt::format("points[{}]", i), "must be finite");
+        reject(crt::text::format("points[{}]", i), "must be finite");
     }
     std::vector<crt::Location> answers(count);
     crt::query_in_parallel(prepared->value, count,

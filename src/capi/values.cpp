@@ -1,16 +1,15 @@
 // This file converts materials, lights, cameras and backgrounds from C to C++ and back. The
 // defaults are converted from the C++ structs, never written down a second time.
-#include <fmt/format.h>
-
 #include <type_traits>
 
 #include "capi/numbers.hpp"
 #include "capi/structs.hpp"
+#include "text/format.hpp"
 
 namespace crt::capi {
 
 void reject_value(const char* argument, std::int32_t value, const char* list) {
-  reject(argument, fmt::format("is {}, which is no {}", value, list));
+  reject(argument, text::format("is {}, which is no {}", value, list));
 }
 
 void give_text(const std::string& from, const char* argument, char* text, std::size_t capacity,

@@ -1,19 +1,19 @@
 #include "farm/assembly.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/render/accuracy.hpp"
 #include "core/render/tiles.hpp"
+#include "text/format.hpp"
 
 namespace crt::farm {
 
 namespace {
 
 [[noreturn]] void fail(const Piece& piece) {
-  throw Error(ErrorCode::io, fmt::format("pieces of frame {} do not belong together", piece.frame));
+  throw Error(ErrorCode::io,
+              text::format("pieces of frame {} do not belong together", piece.frame));
 }
 
 /// Calls copy(place in the picture, place in the piece, count) for each row of the piece.

@@ -1,10 +1,9 @@
 // Frames of a film get names with numbers.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
 
 #include "crt/farm.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -45,9 +44,11 @@ std::filesystem::path frame_path(const std::filesystem::path& output, int frame)
   if (place.length == 0) place = find_percent(name);
   if (place.length == 0) {
     return output.parent_path() /
-           fmt::format("{}_{:04}{}", output.stem().string(), frame, output.extension().string());
+           text::format("{}_{:04}{}", output.stem().string(), frame, output.extension().string());
   }
-  const std::string number = fmt::format("{:0{}}", frame, place.digits);
+  std::string number = std::to_string(frame);
+  const auto digits = static_cast<std::size_t>(place.digits);
+  if (number.size() < digits) number.insert(frame < 0 ? 1 : 0, digits - number.size(), '0');
   return output.parent_path() / std::string(name).replace(place.position, place.length, number);
 }
 

@@ -1,7 +1,5 @@
 #include "farm/manifest.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,7 @@
 
 #include "core/base/sha256.hpp"
 #include "core/base/whole_file.hpp"
+#include "text/format.hpp"
 #include "text/json.hpp"
 
 namespace crt::farm {
@@ -31,7 +30,7 @@ constexpr std::pair<const char*, bool Aovs::*> aov_names[] = {
 };
 
 [[noreturn]] void fail(const std::string& why) {
-  throw Error(ErrorCode::io, fmt::format("this is no manifest of a job: {}", why));
+  throw Error(ErrorCode::io, text::format("this is no manifest of a job: {}", why));
 }
 
 Json to_json(const Task& task) {
@@ -43,7 +42,7 @@ Json to_json(const Task& task) {
 
 /// Returns a member of an object, which must be there.
 const Json& member(const Json& object, const char* name) {
-  if (!object.is_object() || !object.contains(name)) fail(fmt::format("there is no '{}'", name));
+  if (!object.is_object() || !object.contains(name)) fail(text::format("there is no '{}'", name));
   return object.at(name);
 }
 
@@ -60,7 +59,7 @@ Number whole(const Json& value, const char* name, Number least,
     if (std::is_signed_v<Number> && given >= static_cast<std::int64_t>(least))
       return static_cast<Number>(given);
   }
-  fail(fmt::format("'{}' must be a whole number from {} to {}", name, least, most));
+  fail(text::format("'{}' must be a whole number from {} to {}", name, least, most));
 }
 
 template <class Number>
@@ -72,11 +71,11 @@ Number whole_member(const Json& object, const char* name, Number least,
 double number(const Json& object, const char* name) {
   const Json& value = member(object, name);
   if (value.is_number() && std::isfinite(value.get<double>())) return value.get<double>();
-  fail(fmt::format("'{}' must be a number", name));
+  fail(text::format("'{}' must be a number", name));
 }
 
 std::string text(const Json& value, const char* name) {
-  if (!value.is_string()) fail(fmt::format("'{}' must be a text", name));
+  if (!value.is_string()) fail(text::format("'{}' must be a text", name));
   return value.get<std::string>();
 }
 
@@ -86,7 +85,7 @@ std::string inner_path(const std::string& name) {
   const bool leads_out = name.empty() || name.find('\0') != std::string::npos ||
                          path.is_absolute() || path.lexically_normal().string() != name ||
                          std::find(path.begin(), path.end(), "..") != path.end();
-  if (leads_out) fail(fmt::format("'{}' is not the path of a file in the job", name));
+  if (leads_out) fail(text::format("'{}' is not the path of a file in the job", name));
   return name;
 }
 
@@ -100,10 +99,10 @@ std::string hash(const Json& value) {
 
 std::vector<std::pair<std::string, std::string>> pairs(const Json& object, const char* name) {
   const Json& list = member(object, name);
-  if (!list.is_array()) fail(fmt::format("'{}' must be a list", name));
+  if (!list.is_array()) fail(text::format("'{}' must be a list", name));
   std::vector<std::pair<std::string, std::string>> result;
   for (const Json& pair : list) {
-    if (!pair.is_array() || pair.size() != 2) fail(fmt::format("'{}' must have pairs", name));
+    if (!pair.is_array() || pair.size() != 2) fail(text::format("'{}' must have pairs", name));
     result.emplace_back(text(pair[0], name), text(pair[1], name));
   }
   return result;
@@ -132,7 +131,7 @@ void check_frames(const Manifest& manifest) {
     for (const auto& [frame, region] : task.pieces) {
       std::int64_t& left = missing[static_cast<std::size_t>(frame - frames.first)];
       left -= std::int64_t{region.width} * region.height;
-      if (left < 0) fail(fmt::format("pieces of frame {} lie on one another", frame));
+      if (left < 0) fail(text::format("pieces of frame {} lie on one another", frame));
     }
   }
   for (const std::int64_t left : missing) {
@@ -142,7 +141,7 @@ void check_frames(const Manifest& manifest) {
 
 void read_tasks(const Json& list, Manifest& manifest) {
   if (!list.is_array() || list.empty() || list.size() > std::size_t{most_tasks})
-    fail(fmt::format("there must be 1 to {} tasks", most_tasks));
+    fail(text::format("there must be 1 to {} tasks", most_tasks));
   manifest.tasks.reserve(list.size());
   for (const Json& given : list) {
     Task& task = manifest.tasks.emplace_back();
@@ -172,7 +171,7 @@ void read_picture(const Json& object, Manifest& manifest) {
     const std::string name = text(given, "aovs");
     const auto* const known = std::find_if(std::begin(aov_names), std::end(aov_names),
                                            [&](const auto& aov) { return aov.first == name; });
-    if (known == std::end(aov_names)) fail(fmt::format("there are no aovs '{}'", name));
+    if (known == std::end(aov_names)) fail(text::format("there are no aovs '{}'", name));
     manifest.aovs.*known->second = true;
   }
 }
@@ -258,10 +257,10 @@ Manifest parse_manifest(std::string_view text) {
 }
 
 fs::path Job::part_file(int task) const {
-  return folder / parts_folder / fmt::format("{:06}.part", task);
+  return folder / parts_folder / text::format("{:06}.part", task);
 }
 fs::path Job::log_file(int task) const {
-  return folder / log_folder / fmt::format("{:06}.txt", task);
+  return folder / log_folder / text::format("{:06}.txt", task);
 }
 fs::path Job::content_file(const std::string& hash) const {
   return folder / contents_folder / hash;
@@ -275,7 +274,7 @@ Job open_job(const fs::path& folder) {
     return {.folder = folder, .id = core::sha256(bytes), .manifest = parse_manifest(text)};
   } catch (const Error& error) {
     throw Error(error.code(),
-                fmt::format("'{}': {}", (folder / manifest_name).string(), error.what()));
+                text::format("'{}': {}", (folder / manifest_name).string(), error.what()));
   }
 }
 

@@ -1,8 +1,8 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 
 #include "farm/assembly.hpp"
+#include "text/format.hpp"
 
 namespace crt::farm {
 
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 fs::path default_output(const Job& job, int frame) {
   const FarmPlan plan = plan_of(job);
   const char* const ending = plan.has_channels ? ".exr" : ".png";
-  return job.folder / (plan.frames ? fmt::format("{}_{:04}{}", plan.picture_name, frame, ending)
+  return job.folder / (plan.frames ? text::format("{}_{:04}{}", plan.picture_name, frame, ending)
                                    : plan.picture_name + ending);
 }
 
@@ -45,8 +45,8 @@ class Merger {
       if (!fs::exists(job_.part_file(task), failed)) {
         result_.missing.push_back(task);
       } else if (!has_part(job_, task)) {
-        result_.refused.push_back({task, fmt::format("'{}' is damaged, or of another plan or task",
-                                                     job_.part_file(task).string())});
+        result_.refused.push_back({task, text::format("'{}' is damaged, or of another plan or task",
+                                                      job_.part_file(task).string())});
       } else {
         continue;
       }

@@ -1,7 +1,5 @@
 #include "farm/part.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstring>
 #include <string_view>
@@ -11,6 +9,7 @@
 #include "core/base/state_file.hpp"
 #include "core/base/whole_file.hpp"
 #include "crt/validate.hpp"
+#include "text/format.hpp"
 
 namespace crt::farm {
 
@@ -190,7 +189,7 @@ std::vector<RenderedPiece> read_whole_part(const Job& job, int task, core::State
   head.task = in.get<std::int64_t>();
   if (!head.is_of(job, task)) {
     throw Error(ErrorCode::io,
-                fmt::format("'{}' is of another plan or task", job.part_file(task).string()));
+                text::format("'{}' is of another plan or task", job.part_file(task).string()));
   }
   std::vector<RenderedPiece> pieces;
   for (const Piece& piece : job.manifest.tasks[static_cast<std::size_t>(task)].pieces)
@@ -216,7 +215,7 @@ std::vector<RenderedPiece> read_part(const Job& job, int task) {
     core::StateReader in(job.part_file(task));
     return read_whole_part(job, task, in);
   } catch (const Error& error) {
-    const std::string name = fmt::format("'{}'", job.part_file(task).string());
+    const std::string name = text::format("'{}'", job.part_file(task).string());
     const bool is_damaged = std::string_view(error.what()).starts_with(name + " is damaged");
     if (error.code() == ErrorCode::out_of_memory) throw;
     if (error.code() == ErrorCode::io && !is_damaged) throw;
@@ -245,8 +244,8 @@ void check_replaceable(const std::filesystem::path& file) {
   const std::filesystem::file_status status = std::filesystem::symlink_status(file, failed);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw Error(ErrorCode::io,
-                fmt::format("cannot write '{}': there is something that is no regular file",
-                            file.string()));
+                text::format("cannot write '{}': there is something that is no regular file",
+                             file.string()));
   }
 }
 

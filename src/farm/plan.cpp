@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "farm/probe.hpp"
 #include "farm/scene_files.hpp"
 #include "farm/split.hpp"
+#include "text/format.hpp"
 
 namespace crt::farm {
 
@@ -27,8 +27,9 @@ void refuse_if(bool is_so, const char* argument, const std::string& why) {
 }
 
 void check(const FarmOptions& options) {
-  refuse_if(options.tasks < 0 || options.tasks > most_tasks, "tasks",
-            fmt::format("a job has 1 to {} tasks; 0 takes as many as are long enough", most_tasks));
+  refuse_if(
+      options.tasks < 0 || options.tasks > most_tasks, "tasks",
+      text::format("a job has 1 to {} tasks; 0 takes as many as are long enough", most_tasks));
   refuse_if(!std::isfinite(options.least_seconds) || options.least_seconds <= 0, "least_seconds",
             "the least seconds of a task must be above 0");
   refuse_if(options.tile_width < 0 || options.tile_height < 0, "tile_width",
@@ -47,7 +48,7 @@ void check(const FarmOptions& options) {
   constexpr int most = std::numeric_limits<int>::max() - most_frames;
   refuse_if(
       first > last || first < -most || last > most || std::int64_t{last} - first >= most_frames,
-      "frames", fmt::format("the frames are first..last, at most {}", most_frames));
+      "frames", text::format("the frames are first..last, at most {}", most_frames));
 }
 
 /// Makes the folders of a job. Throws Error (io) if there is something.
@@ -55,14 +56,14 @@ void make_folders(const fs::path& folder) {
   try {
     fs::create_directories(folder);
     if (!fs::is_empty(folder)) {
-      throw Error(ErrorCode::io,
-                  fmt::format("'{}' is not empty: name a new folder for the job", folder.string()));
+      throw Error(ErrorCode::io, text::format("'{}' is not empty: name a new folder for the job",
+                                              folder.string()));
     }
     for (const char* inside : {contents_folder, parts_folder, log_folder})
       fs::create_directory(folder / inside);
   } catch (const fs::filesystem_error& error) {
-    throw Error(ErrorCode::io, fmt::format("cannot make the folder '{}': {}",
-                                           error.path1().string(), error.code().message()));
+    throw Error(ErrorCode::io, text::format("cannot make the folder '{}': {}",
+                                            error.path1().string(), error.code().message()));
   }
 }
 
@@ -174,10 +175,11 @@ class Planner {
       manifest.height = settings.height;
       return;
     }
-    refuse_if(manifest.width != settings.width || manifest.height != settings.height, "frames",
-              fmt::format("the frames of a job have one size: that of frame {} is {} x {}, and "
-                          "that of the first {} x {}",
-                          frame, settings.width, settings.height, manifest.width, manifest.height));
+    refuse_if(
+        manifest.width != settings.width || manifest.height != settings.height, "frames",
+        text::format("the frames of a job have one size: that of frame {} is {} x {}, and "
+                     "that of the first {} x {}",
+                     frame, settings.width, settings.height, manifest.width, manifest.height));
   }
 
   /// Returns a map for each frame, between those of the measured ones.

@@ -1,13 +1,12 @@
 #include "farm/scene_files.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <system_error>
 
 #include "core/base/sha256.hpp"
 #include "core/base/whole_file.hpp"
 #include "crt/file.hpp"
+#include "text/format.hpp"
 
 namespace crt::farm {
 
@@ -23,7 +22,7 @@ constexpr std::size_t most_bytes = std::size_t{1} << 32;
 
 /// Returns a text in which files have their names in the script's folder.
 std::string without_root(std::string text) {
-  const std::string prefix = fmt::format("{}/{}/", root, script_folder_name);
+  const std::string prefix = text::format("{}/{}/", root, script_folder_name);
   for (std::size_t at = 0; (at = text.find(prefix, at)) != std::string::npos;)
     text.erase(at, prefix.size());
   return text;
@@ -112,8 +111,8 @@ std::optional<Content> open_job_file(const Job& job, const std::string& name) {
   Content content = core::read_whole_file(job.content_file(known->second), most_bytes);
   if (core::sha256(content) != known->second) {
     throw Error(ErrorCode::io,
-                fmt::format("'{}' is not what was planned: copy the job's folder again",
-                            job.content_file(known->second).string()));
+                text::format("'{}' is not what was planned: copy the job's folder again",
+                             job.content_file(known->second).string()));
   }
   return content;
 }

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -7,6 +6,7 @@
 
 #include "core/base/whole_file.hpp"
 #include "farm/part.hpp"
+#include "text/format.hpp"
 #include "text/printable.hpp"
 
 namespace crt::farm {

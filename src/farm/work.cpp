@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include "crt/file.hpp"
 #include "farm/part.hpp"
 #include "farm/scene_files.hpp"
+#include "text/format.hpp"
 
 namespace crt::farm {
 
@@ -24,7 +24,7 @@ class WorkLog {
   WorkLog(const Job& job, int task) : file_(job.log_file(task)) {
     std::array<char, 256> host{};
     if (gethostname(host.data(), host.size() - 1) != 0) host = {'?'};
-    worker_ = fmt::format("{}:{}", host.data(), getpid());
+    worker_ = text::format("{}:{}", host.data(), getpid());
     write(0, 0);
   }
 
@@ -40,7 +40,7 @@ class WorkLog {
     written_ = Clock::now();
     try {
       check_replaceable(file_);
-      write_file(file_, fmt::format("{} {:.3f} {:.6f}\n", worker_, share, seconds));
+      write_file(file_, text::format("{} {:.3f} {:.6f}\n", worker_, share, seconds));
     } catch (const Error&) {
       return;
     }
@@ -95,9 +95,9 @@ class TaskRenderer {
     if (settings.width != manifest.width || settings.height != manifest.height) {
       throw Error(
           ErrorCode::invalid_argument,
-          fmt::format("the frames of a job have one size: that of frame {} is {} x {}, and "
-                      "that of the first {} x {}",
-                      frame, settings.width, settings.height, manifest.width, manifest.height));
+          text::format("the frames of a job have one size: that of frame {} is {} x {}, and "
+                       "that of the first {} x {}",
+                       frame, settings.width, settings.height, manifest.width, manifest.height));
     }
     prepared_ = prepare(*result.scene, {.go_on = go_on, .max_primitives = manifest.max_primitives});
     by_passes_ = core::asks_for_passes(settings, manifest.passes);
@@ -155,7 +155,7 @@ bool work_farm(const std::filesystem::path& job, int task, const FarmWorkOptions
   const auto tasks = static_cast<int>(opened.manifest.tasks.size());
   if (task < 0 || task >= tasks) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("there is no task {}: the job has 0 to {}", task, tasks - 1), "task");
+                text::format("there is no task {}: the job has 0 to {}", task, tasks - 1), "task");
   }
   if (farm::is_whole(opened, task)) return false;
   farm::check_replaceable(opened.part_file(task));

@@ -1,7 +1,5 @@
 #include "lang/attributes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "lang/failure.hpp"
 #include "lang/fields.hpp"
 #include "lang/suggestion.hpp"
+#include "text/format.hpp"
 #include "text/letters.hpp"
 
 namespace crt::lang {
@@ -24,13 +23,13 @@ namespace {
 
 [[noreturn]] void wrong_type(const Given& given) {
   const std::string_view wanted = given.type->type;
-  reject(given, fmt::format("must be {} {}, not {}", article(wanted), wanted,
-                            type_with_article(given.value)));
+  reject(given, text::format("must be {} {}, not {}", article(wanted), wanted,
+                             type_with_article(given.value)));
 }
 
 void require_finite(const Given& given, double number) {
   if (!std::isfinite(number))
-    reject(given, fmt::format("must be a finite number, not {}", float_text(number)));
+    reject(given, text::format("must be a finite number, not {}", float_text(number)));
 }
 
 template <class Wanted>
@@ -53,11 +52,11 @@ void choose(const Given& given, const std::array<std::pair<std::string_view, Enu
       return;
     }
     names.push_back(name);
-    quoted.push_back(fmt::format("\"{}\"", name));
+    quoted.push_back(text::format("\"{}\"", name));
   }
   const std::string_view meant = nearest(text, names);
-  const std::string suggestion = meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant);
-  reject(given, fmt::format("must be {}{}", enumerate(quoted), suggestion));
+  const std::string suggestion = meant.empty() ? "" : text::format("; did you mean \"{}\"?", meant);
+  reject(given, text::format("must be {}{}", enumerate(quoted), suggestion));
 }
 
 /// The memory of a stop of a pattern is paid for by so many steps, whenever the pattern is copied.
@@ -114,7 +113,7 @@ void append(const Given& given, const ContourItem& item, Contour& contour) {
   try {
     item.append_to(contour);
   } catch (const Error& error) {
-    reject(given, fmt::format("has a curve that is wrong: {}", error.what()));
+    reject(given, text::format("has a curve that is wrong: {}", error.what()));
   }
 }
 
@@ -129,11 +128,11 @@ Contour contour_of(const Given& given, Context& context, const std::vector<Value
   for (const Value& value : items) {
     const std::optional<ContourItem> item = contour_item(value);
     if (!item) {
-      reject(given,
-             fmt::format("must have corners such as [0, 1], or [0, 1, 0.5] with the bulge of an "
-                         "arc, or [1, 0, 1, 1, 0, 1] with the control points of a curve; it has {} "
-                         "in it",
-                         type_with_article(value)));
+      reject(given, text::format(
+                        "must have corners such as [0, 1], or [0, 1, 0.5] with the bulge of an "
+                        "arc, or [1, 0, 1, 1, 0, 1] with the control points of a curve; it has {} "
+                        "in it",
+                        type_with_article(value)));
     }
     const std::size_t before = contour.size();
     if (contour.empty()) {
@@ -170,13 +169,13 @@ void convert(const Given& given, Context&, int& field) {
   const std::int64_t number = get<std::int64_t>(given);
   constexpr std::int64_t most = std::numeric_limits<int>::max();
   if (number > most || number < -most)
-    reject(given, fmt::format("is far out of range (it is {})", number));
+    reject(given, text::format("is far out of range (it is {})", number));
   field = static_cast<int>(number);
 }
 
 void convert(const Given& given, Context&, std::uint64_t& field) {
   const std::int64_t number = get<std::int64_t>(given);
-  if (number < 0) reject(given, fmt::format("must be at least 0 (it is {})", number));
+  if (number < 0) reject(given, text::format("must be at least 0 (it is {})", number));
   field = static_cast<std::uint64_t>(number);
 }
 
@@ -304,14 +303,15 @@ void convert(const Given& given, Context& context, HeightRows& field) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const List* row = std::get_if<List>(&rows[i]);
     if (!row) {
-      reject(given, fmt::format("must have rows such as [0, 0.5, 1]; it has {} in it",
-                                type_with_article(rows[i])));
+      reject(given, text::format("must have rows such as [0, 0.5, 1]; it has {} in it",
+                                 type_with_article(rows[i])));
     }
     const std::vector<Value>& items = (*row)->items;
     if (i == 0) columns = items.size();
     if (items.size() != columns) {
-      reject(given, fmt::format("must have rows of one length; row {} has {} heights, row 0 has {}",
-                                i, items.size(), columns));
+      reject(given,
+             text::format("must have rows of one length; row {} has {} heights, row 0 has {}", i,
+                          items.size(), columns));
     }
     context.spend(given.value_span, items.size());
     context.files.take_pixels(items.size(), given.value_span);
@@ -320,7 +320,7 @@ void convert(const Given& given, Context& context, HeightRows& field) {
       const double* number = as_float(item, storage);
       if (!number) {
         reject(given,
-               fmt::format("must have numbers; it has {} in row {}", type_with_article(item), i));
+               text::format("must have numbers; it has {} in row {}", type_with_article(item), i));
       }
       heights.push_back(*number);
     }
@@ -401,7 +401,7 @@ void convert(const Given& given, Context&, std::vector<Light>& field) {
     const auto* light = std::get_if<std::shared_ptr<const Light>>(&item);
     if (!light)
       reject(given,
-             fmt::format("must be a List of lights; it has {} in it", type_with_article(item)));
+             text::format("must be a List of lights; it has {} in it", type_with_article(item)));
     field.push_back(**light);
   }
 }

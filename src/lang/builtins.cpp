@@ -1,8 +1,7 @@
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
 #include "lang/fields.hpp"
-
-#include <fmt/format.h>
+#include "text/format.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,4 @@
 // This file has the built-ins that compute numbers: trigonometry, powers, rounding, random numbers.
-#include <fmt/format.h>
 #include <crt/elementary.hpp>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "lang/failure.hpp"
 #include "lang/fields.hpp"
 #include "lang/random.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 

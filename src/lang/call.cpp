@@ -1,11 +1,10 @@
 // This file has the interpreter's calls of built-ins and of macros, as statements and as values.
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -45,8 +44,8 @@ class DepthGuard {
 std::string parameter_list(const SymbolTable& symbols, const MacroValue& macro) {
   std::string list;
   for (const NamePlace& parameter : macro.literal->parameters)
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", symbols.name(parameter.symbol));
-  return fmt::format("({})", list);
+    list += text::format("{}{}", list.empty() ? "" : ", ", symbols.name(parameter.symbol));
+  return text::format("({})", list);
 }
 
 std::string_view Interpreter::callee_name(const Call& call) const {
@@ -94,15 +93,15 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
   const Span span = assignment.name.span;
   if (is_parameter) {
     const std::string message =
-        fmt::format("arguments have no names: give them in the order of the parameters {}",
-                    parameter_list(context_.symbols, macro));
+        text::format("arguments have no names: give them in the order of the parameters {}",
+                     parameter_list(context_.symbols, macro));
     if (context_.compat != compat_2015) throw Failure{.span = span, .message = message};
     context_.reporter.warning(span, message);
   } else if (context_.compat != compat_2015) {
     context_.reporter.warning(
         span,
-        fmt::format("arguments have no names: this sets the variable '{}' outside of the call",
-                    context_.symbols.name(assignment.name.symbol)));
+        text::format("arguments have no names: this sets the variable '{}' outside of the call",
+                     context_.symbols.name(assignment.name.symbol)));
   }
 }
 
@@ -132,7 +131,7 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
 
 [[gnu::noinline]] void Interpreter::pass_call_depth(Span span) const {
   context_.pass_limit(
-      span, fmt::format("macros call one another more than {} deep", context_.limits.call_depth));
+      span, text::format("macros call one another more than {} deep", context_.limits.call_depth));
 }
 
 /// Runs a macro. Returns what it returns, or nothing if it does not.

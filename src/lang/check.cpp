@@ -1,7 +1,5 @@
 #include "lang/check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string>
@@ -11,6 +9,7 @@
 #include "lang/settings.hpp"
 #include "lang/suggestion.hpp"
 #include "lang/tree_walk.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -46,7 +45,7 @@ std::string meant(std::string_view name) {
   for (const std::string_view known : names) {
     if (!is_light || known.ends_with(light)) listed.emplace_back(known);
   }
-  return fmt::format("; there are {}", enumerate(listed, "and"));
+  return text::format("; there are {}", enumerate(listed, "and"));
 }
 
 class ScriptChecker {
@@ -58,7 +57,7 @@ class ScriptChecker {
     const std::string_view name = symbols_.name(object.name.symbol);
     object.type = find_object_type(name);
     if (object.type) return check_attributes(*object.type, object.name.span, object.attributes);
-    reporter_.error(object.name.span, fmt::format("unknown object '{}'{}", name, meant(name)));
+    reporter_.error(object.name.span, text::format("unknown object '{}'{}", name, meant(name)));
   }
 
   void check_attributes(const ObjectType& type, Span name_span,
@@ -73,7 +72,7 @@ class ScriptChecker {
         if (meant < given.size()) given[meant] = true;
       } else if (given[attribute.index]) {
         reporter_.error(attribute.name.span,
-                        fmt::format("the attribute '{}' is given twice", name));
+                        text::format("the attribute '{}' is given twice", name));
       } else {
         given[attribute.index] = true;
       }
@@ -81,12 +80,12 @@ class ScriptChecker {
     std::vector<std::string> missing;
     for (std::size_t i = 0; i < given.size(); ++i) {
       if (type.attributes[i].required && !given[i])
-        missing.push_back(fmt::format("'{}'", type.attributes[i].name));
+        missing.push_back(text::format("'{}'", type.attributes[i].name));
     }
     if (missing.empty()) return;
     reporter_.error(name_span,
-                    fmt::format("{} needs the attribute{} {}", type.name,
-                                missing.size() > 1 ? "s" : "", enumerate(missing, "and")));
+                    text::format("{} needs the attribute{} {}", type.name,
+                                 missing.size() > 1 ? "s" : "", enumerate(missing, "and")));
   }
 
  private:
@@ -100,12 +99,12 @@ class ScriptChecker {
       listed.emplace_back(attribute.name);
     }
     std::string hint = did_you_mean(name, names);
-    if (hint.empty()) hint = fmt::format("; {} has {}", type.name, enumerate(listed, "and"));
+    if (hint.empty()) hint = text::format("; {} has {}", type.name, enumerate(listed, "and"));
     if (compat_ == compat_2015) {
-      reporter_.warning(span, fmt::format("unknown attribute '{}' is passed over{}", name, hint));
+      reporter_.warning(span, text::format("unknown attribute '{}' is passed over{}", name, hint));
       return type.attributes.size();
     }
-    reporter_.error(span, fmt::format("unknown attribute '{}'{}", name, hint));
+    reporter_.error(span, text::format("unknown attribute '{}'{}", name, hint));
     return find_attribute(type, nearest(name, names));
   }
 
@@ -140,7 +139,7 @@ void check(Script& script, int compat, const SymbolTable& symbols, Reporter& rep
   const Span* scene_span = nullptr;
   const auto only_one = [&](const Span*& first, const Span& span, const char* name) {
     if (first)
-      reporter.error(span, fmt::format("a script has one {} block, and this is another", name));
+      reporter.error(span, text::format("a script has one {} block, and this is another", name));
     first = &span;
   };
   for (Expression& expression : script.expressions) {

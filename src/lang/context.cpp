@@ -1,12 +1,12 @@
 #include "lang/context.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <type_traits>
 #include <variant>
+
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -52,8 +52,8 @@ std::string Context::where() const {
   if (!culprit) return {};
   const SourcePlace place = sources.place(culprit->span);
   const char* kind = culprit->is_loop ? "loop" : "call";
-  return fmt::format(", in the {} '{}' at {}:{}:{}", kind, culprit->name, place.file, place.line,
-                     place.column);
+  return text::format(", in the {} '{}' at {}:{}:{}", kind, culprit->name, place.file, place.line,
+                      place.column);
 }
 
 void Context::pass_limit(Span span, const std::string& message) const {
@@ -62,7 +62,7 @@ void Context::pass_limit(Span span, const std::string& message) const {
 
 void Context::pause(Span span) {
   if (steps_ > limits.steps)
-    pass_limit(span, fmt::format("the script takes more than {} steps", limits.steps));
+    pass_limit(span, text::format("the script takes more than {} steps", limits.steps));
   if (options.go_on && !options.go_on()) {
     throw Failure{
         .span = span, .message = "the script was cancelled", .code = ErrorCode::cancelled};
@@ -87,35 +87,35 @@ void Context::spend_on_items(Span span, const std::vector<Value>& items) {
 void Context::count_made(Span span) {
   spend(span, steps_per_entity);
   if (++made_ > limits.entities)
-    pass_limit(span, fmt::format("the script makes more than {} entities", limits.entities));
+    pass_limit(span, text::format("the script makes more than {} entities", limits.entities));
 }
 
 void Context::count_emitted(Span span, std::uint64_t primitives) {
   if (primitives > limits.entities - emitted_)
-    pass_limit(span, fmt::format("the scene gets more than {} entities", limits.entities));
+    pass_limit(span, text::format("the scene gets more than {} entities", limits.entities));
   emitted_ += primitives;
 }
 
 void Context::check_size(Span span, const Entity& entity) {
   if (entity.primitive_count() > limits.entities)
-    pass_limit(span, fmt::format("an entity of more than {} primitives", limits.entities));
+    pass_limit(span, text::format("an entity of more than {} primitives", limits.entities));
 }
 
 Charge Context::charge_memory(Span span, std::size_t bytes) {
   if (bytes > limits.memory_bytes - memory_)
     pass_limit(span,
-               fmt::format("the script's values need more than {} bytes", limits.memory_bytes));
+               text::format("the script's values need more than {} bytes", limits.memory_bytes));
   return Charge(memory_, bytes);
 }
 
 void Context::check_string_size(Span span, std::size_t bytes) {
   if (bytes > limits.string_bytes)
-    pass_limit(span, fmt::format("a string of more than {} bytes", limits.string_bytes));
+    pass_limit(span, text::format("a string of more than {} bytes", limits.string_bytes));
 }
 
 void Context::check_list_size(Span span, std::size_t items) {
   if (items > limits.list_length)
-    pass_limit(span, fmt::format("a list of more than {} items", limits.list_length));
+    pass_limit(span, text::format("a list of more than {} items", limits.list_length));
 }
 
 Value Context::make_string(Span span, std::string text) {
@@ -131,7 +131,7 @@ Value Context::make_list(Span span, std::vector<Value> items) {
     if (const List* list = std::get_if<List>(&item)) depth = std::max(depth, (*list)->depth + 1);
   }
   if (depth > deepest_list)
-    pass_limit(span, fmt::format("lists nested more than {} deep", deepest_list));
+    pass_limit(span, text::format("lists nested more than {} deep", deepest_list));
   Charge charge = charge_memory(span, sizeof(ListValue) + items.capacity() * sizeof(Value));
   return std::make_shared<ListValue>(ListValue{std::move(items), depth, std::move(charge)});
 }
@@ -139,7 +139,7 @@ Value Context::make_list(Span span, std::vector<Value> items) {
 void Context::print(Span span, const std::string& line) {
   printed_bytes_ += line.size() + 1;
   if (printed_bytes_ > limits.string_bytes)
-    pass_limit(span, fmt::format("the script prints more than {} bytes", limits.string_bytes));
+    pass_limit(span, text::format("the script prints more than {} bytes", limits.string_bytes));
   if (options.print) options.print(line);
 }
 

@@ -1,6 +1,4 @@
 // This file writes diagnostics for people, and as JSON for programs.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -8,6 +6,7 @@
 
 #include "crt/script.hpp"
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -27,9 +26,9 @@ std::string head(const Diagnostic& diagnostic) {
   const char* kind = diagnostic.severity == Severity::error ? "error" : "warning";
   const SourcePlace& place = diagnostic.place;
   const std::string message = printable(diagnostic.message);
-  if (place.line == 0) return fmt::format("{}: {}: {}\n", printable(place.file), kind, message);
-  return fmt::format("{}:{}:{}: {}: {}\n", printable(place.file), place.line, place.column, kind,
-                     message);
+  if (place.line == 0) return text::format("{}: {}: {}\n", printable(place.file), kind, message);
+  return text::format("{}:{}:{}: {}: {}\n", printable(place.file), place.line, place.column, kind,
+                      message);
 }
 
 /// Returns the bytes of `text` that hold the code points [first, first + count).
@@ -82,17 +81,17 @@ std::string json_string(std::string_view text) {
 }
 
 std::string json_place(const SourcePlace& place) {
-  return fmt::format(R"("file": {}, "line": {}, "column": {}, "length": {})",
-                     json_string(place.file), place.line, place.column, place.length);
+  return text::format(R"("file": {}, "line": {}, "column": {}, "length": {})",
+                      json_string(place.file), place.line, place.column, place.length);
 }
 
 std::string to_json(const Diagnostic& diagnostic) {
   std::string calls;
   for (const auto& [name, place] : diagnostic.calls) {
     if (!calls.empty()) calls += ", ";
-    calls += fmt::format(R"({{"name": {}, {}}})", json_string(name), json_place(place));
+    calls += text::format(R"({{"name": {}, {}}})", json_string(name), json_place(place));
   }
-  return fmt::format(
+  return text::format(
       R"({{"severity": "{}", "code": {}, "message": {}, {}, "source": {}, "calls": [{}]}})",
       diagnostic.severity == Severity::error ? "error" : "warning",
       json_string(to_string(diagnostic.code)), json_string(diagnostic.message),
@@ -106,11 +105,11 @@ std::string format_diagnostic(const Diagnostic& diagnostic) {
   const std::size_t shown = std::min(diagnostic.calls.size(), most_calls_shown);
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [name, place] = diagnostic.calls[i];
-    result += fmt::format("  in '{}', called at {}:{}:{}\n", printable(name), printable(place.file),
-                          place.line, place.column);
+    result += text::format("  in '{}', called at {}:{}:{}\n", printable(name),
+                           printable(place.file), place.line, place.column);
   }
   if (shown < diagnostic.calls.size())
-    result += fmt::format("  and {} calls more\n", diagnostic.calls.size() - shown);
+    result += text::format("  and {} calls more\n", diagnostic.calls.size() - shown);
   return result;
 }
 

@@ -1,7 +1,5 @@
 // This file has the interpreter's expressions. Each kind has a function of its own that is not
 // inlined. That keeps the frame of evaluate() small, of which there can be many on the stack.
-#include <fmt/format.h>
-
 #include <optional>
 #include <utility>
 #include <variant>
@@ -11,6 +9,7 @@
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
 #include "lang/operators.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 

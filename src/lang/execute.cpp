@@ -1,6 +1,4 @@
 // This file has the interpreter's statements.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
 
@@ -9,6 +7,7 @@
 #include "lang/interpreter.hpp"
 #include "lang/settings.hpp"
 #include "lang/word_byte.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -219,8 +218,8 @@ std::string Interpreter::how_to_call(const MacroValue& macro, Span span) const {
   const bool is_name =
       std::all_of(text.begin(), text.end(), [](char c) { return is_word_byte(c); });
   const std::string_view name = is_name ? text : "m";
-  return fmt::format("; {} is a macro: call it with {}{}", is_name ? name : "this", name,
-                     parameter_list(context_.symbols, macro));
+  return text::format("; {} is a macro: call it with {}{}", is_name ? name : "this", name,
+                      parameter_list(context_.symbols, macro));
 }
 
 /// Says where a value that is not used belongs, or what was meant.

@@ -3,13 +3,12 @@
 // them on the stack at once.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <string>
 #include <type_traits>
 
 #include "lang/reporter.hpp"
 #include "lang/value.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -27,10 +26,9 @@ template <class Argument>
 using Shown = std::remove_cvref_t<decltype(as_shown(std::declval<const Argument&>()))>;
 
 template <class... Arguments>
-[[noreturn, gnu::noinline]] void fail(Span span,
-                                      fmt::format_string<const Shown<Arguments>&...> format,
+[[noreturn, gnu::noinline]] void fail(Span span, text::Form<Shown<Arguments>...> form,
                                       const Arguments&... arguments) {
-  const auto write = [&](const auto&... shown) { return fmt::format(format, shown...); };
+  const auto write = [&](const auto&... shown) { return text::format(form, shown...); };
   throw Failure{.span = span, .message = write(as_shown(arguments)...)};
 }
 

@@ -1,7 +1,5 @@
 #include "lang/field_objects.hpp"
 
-#include <fmt/format.h>
-
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "lang/failure.hpp"
 #include "lang/fields.hpp"
 #include "lang/object_builder.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 

@@ -1,7 +1,5 @@
 #include "lang/fields.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -10,6 +8,7 @@
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
 #include "lang/parser.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -52,7 +51,8 @@ Field parse_field(std::string_view text) {
   lang::Context context(options, symbols, sources, reporter);
   if (text.size() > context.limits.source_bytes) {
     throw Error(ErrorCode::limit,
-                fmt::format("field is longer than {} bytes", context.limits.source_bytes), "field");
+                text::format("field is longer than {} bytes", context.limits.source_bytes),
+                "field");
   }
   try {
     const lang::Source& source = sources.add("field", std::string(text));
@@ -67,8 +67,8 @@ Field parse_field(std::string_view text) {
   for (const Diagnostic& diagnostic : reporter.diagnostics()) {
     if (diagnostic.severity != Severity::error) continue;
     throw Error(diagnostic.code,
-                fmt::format("field:{}:{}: {}", diagnostic.place.line, diagnostic.place.column,
-                            diagnostic.message),
+                text::format("field:{}:{}: {}", diagnostic.place.line, diagnostic.place.column,
+                             diagnostic.message),
                 "field");
   }
   throw Error(ErrorCode::script, "field cannot be read", "field");

@@ -1,7 +1,5 @@
 #include "lang/files.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <fstream>
 #include <set>
@@ -12,6 +10,7 @@
 #include "crt/image_limits.hpp"
 #include "crt/mesh_file.hpp"
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -100,23 +99,23 @@ Files::Found Files::find(const std::string& name, const fs::path& directory, Spa
       continue;
     }
     if (!fs::is_regular_file(canonical, failed))
-      fail_reading(span, fmt::format("'{}' is not a regular file", shown));
+      fail_reading(span, text::format("'{}' is not a regular file", shown));
     return {candidate, canonical, std::nullopt};
   }
   if (outside)
     fail_reading(
         span,
-        fmt::format(
+        text::format(
             "'{}' lies outside the directories that a script may read: its own and the resource "
             "directories",
             shown));
   if (fs::path(name).has_root_directory() && options_.resource_directories.empty())
     fail_reading(
         span,
-        fmt::format(
+        text::format(
             "there is no file '{}': a leading '/' means a resource directory, and none is set",
             shown));
-  fail_reading(span, fmt::format("there is no file '{}'", shown));
+  fail_reading(span, text::format("there is no file '{}'", shown));
 }
 
 std::string Files::read_text(Found found, std::size_t most_bytes, Span span) const {
@@ -125,16 +124,16 @@ std::string Files::read_text(Found found, std::size_t most_bytes, Span span) con
     const std::vector<std::byte>& bytes = *found.content;
     if (bytes.size() > most_bytes)
       throw Failure{.span = span,
-                    .message = fmt::format("'{}' is too long", shown),
+                    .message = text::format("'{}' is too long", shown),
                     .code = ErrorCode::limit};
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }
   std::error_code failed;
   if (fs::file_size(found.path, failed) > most_bytes && !failed)
     throw Failure{
-        .span = span, .message = fmt::format("'{}' is too long", shown), .code = ErrorCode::limit};
+        .span = span, .message = text::format("'{}' is too long", shown), .code = ErrorCode::limit};
   std::optional<std::string> text = read_regular_file(found.path, most_bytes);
-  if (!text) fail_reading(span, fmt::format("'{}' cannot be read", shown));
+  if (!text) fail_reading(span, text::format("'{}' cannot be read", shown));
   return std::move(*text);
 }
 
@@ -148,8 +147,8 @@ std::uint64_t Files::most_pixels() {
 
 void Files::pass_pixel_limit(Span span, const std::string& message) {
   throw Failure{.span = span,
-                .message = fmt::format("{}: all pictures of a script may have {} pixels together",
-                                       message, most_pixels()),
+                .message = text::format("{}: all pictures of a script may have {} pixels together",
+                                        message, most_pixels()),
                 .code = ErrorCode::limit};
 }
 
@@ -162,7 +161,7 @@ void Files::take_pixels(std::uint64_t count, Span span) {
 Image Files::read_image(const Found& found, Span span, Reporter* reporter) {
   const std::string shown = found.shown.string();
   const std::uint64_t left = most_pixels() - pixels_;
-  if (left == 0) pass_pixel_limit(span, fmt::format("cannot read '{}'", abbreviated(shown)));
+  if (left == 0) pass_pixel_limit(span, text::format("cannot read '{}'", abbreviated(shown)));
   try {
     Image image = found.content ? decode_image(*found.content, shown, left)
                                 : crt::read_image(found.shown, left);
@@ -253,9 +252,9 @@ std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::pat
   constexpr std::size_t most_ways = 16;
   if (meshes.size() == most_ways) {
     throw Failure{.span = span,
-                  .message = fmt::format("'{}' is smoothed, filled, welded or stitched in more "
-                                         "than {} different ways",
-                                         abbreviated(name), most_ways),
+                  .message = text::format("'{}' is smoothed, filled, welded or stitched in more "
+                                          "than {} different ways",
+                                          abbreviated(name), most_ways),
                   .code = ErrorCode::limit};
   }
   return made_of_file(span, [&] {
@@ -272,7 +271,7 @@ std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::pat
     MeshOptions options{.fill = way.fill, .weld = way.weld, .stitch = way.stitch};
     if (reporter != nullptr) {
       options.warn = [&](const std::string& warning) {
-        reporter->warning(span, printable(fmt::format("'{}': {}", shown, warning)));
+        reporter->warning(span, printable(text::format("'{}': {}", shown, warning)));
       };
     }
     return meshes[way] = std::make_shared<const Entity>(load_mesh(file, shown, options));

@@ -1,6 +1,5 @@
 #include "lang/interpreter.hpp"
 
-#include <fmt/format.h>
 #include <pthread.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 

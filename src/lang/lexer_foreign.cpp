@@ -1,7 +1,5 @@
 // This part of the lexer knows what neighbouring languages write, and says how CRT writes it. It
 // hands on what was meant, so that one mistake gives one error.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -10,6 +8,7 @@
 #include "lang/lexer.hpp"
 #include "lang/objects.hpp"
 #include "lang/word_byte.hpp"
+#include "text/format.hpp"
 #include "text/letters.hpp"
 
 namespace crt::lang {
@@ -102,7 +101,7 @@ std::optional<Span> Lexer::word_of_modifier() const {
 
 void Lexer::foreign_comment() {
   reporter_.error(token_span(),
-                  fmt::format("comments begin with '--', not with '{}'", token_text()));
+                  text::format("comments begin with '--', not with '{}'", token_text()));
   skip_comment();
 }
 
@@ -145,7 +144,8 @@ bool Lexer::refuse_increment() {
                     *next == '}' || *next == ',' || *next == ';' ||
                     (next[0] == '-' && next[1] == '-');
   if (!ends) return false;
-  reporter_.error(token_span(), fmt::format("there is no '++'; write '{} += 1'", text(last_.span)));
+  reporter_.error(token_span(),
+                  text::format("there is no '++'; write '{} += 1'", text(last_.span)));
   return true;
 }
 
@@ -158,7 +158,7 @@ std::optional<Grammar::symbol_type> Lexer::small_letters_for(std::string_view na
   const bool is_builtin =
       std::any_of(known.begin(), known.end(), [&](const Builtin& b) { return b.name == small; });
   if (!is_truth && !(is_builtin && *next_on_line(cursor_) == '(')) return std::nullopt;
-  reporter_.error(token_span(), fmt::format("this is written in small letters: '{}'", small));
+  reporter_.error(token_span(), text::format("this is written in small letters: '{}'", small));
   if (is_truth) return sign(small == "true" ? Token::TRUE : Token::FALSE);
   return Grammar::make_IDENTIFIER(symbols_.intern(small), token_span());
 }
@@ -178,7 +178,8 @@ std::optional<Grammar::symbol_type> Lexer::foreign_word(std::string_view name, b
     const std::string_view object =
         *next == '{' ? object_of(text::in_small_letters(name)) : std::string_view();
     if (object.empty()) return std::nullopt;
-    reporter_.error(token_span(), fmt::format("objects begin with a capital letter: '{}'", object));
+    reporter_.error(token_span(),
+                    text::format("objects begin with a capital letter: '{}'", object));
     if (object == "Settings") return sign(Token::SETTINGS);
     if (object == "Scene") return sign(Token::SCENE);
     return Grammar::make_OBJECT_NAME(symbols_.intern(object), token_span());
@@ -191,7 +192,7 @@ std::optional<Grammar::symbol_type> Lexer::foreign_word(std::string_view name, b
     std::string small(name);
     small[0] = static_cast<char>(small[0] - 'A' + 'a');
     reporter_.error(token_span(),
-                    fmt::format("names of variables begin with a small letter: '{}'", small));
+                    text::format("names of variables begin with a small letter: '{}'", small));
     capital_variables_.insert(symbol);
   }
   if (capital_variables_.contains(symbol)) return Grammar::make_IDENTIFIER(symbol, token_span());

@@ -1,12 +1,11 @@
 #include "lang/library.hpp"
 
-#include <fmt/format.h>
-
 #include <vector>
 
 #include "lang/reporter.hpp"
 #include "lang/suggestion.hpp"
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -19,10 +18,10 @@ constexpr std::string_view ending = ".crt";
 
 std::string library_path_of(std::string_view name) {
   // A test checks that each variable of the library begins a line.
-  const std::string setting = fmt::format("\n{} = ", name);
+  const std::string setting = text::format("\n{} = ", name);
   for (const LibraryScript& script : library()) {
     if (script.text.find(setting) != std::string_view::npos)
-      return fmt::format("{}{}", prefix, script.name);
+      return text::format("{}{}", prefix, script.name);
   }
   return {};
 }
@@ -47,12 +46,12 @@ std::string_view find_library(const std::string& path, Span span) {
   }
   for (const std::string& known : all) {
     paths.emplace_back(known);
-    listed.push_back(fmt::format("'{}'", known));
+    listed.push_back(text::format("'{}'", known));
   }
   std::string hint = did_you_mean(path, paths);
   if (hint.empty()) hint = "; there are " + enumerate(listed, "and");
   throw Failure{.span = span,
-                .message = fmt::format("CRT comes with no '{}'{}", abbreviated(path), hint),
+                .message = text::format("CRT comes with no '{}'{}", abbreviated(path), hint),
                 .code = ErrorCode::io};
 }
 

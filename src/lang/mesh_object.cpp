@@ -1,7 +1,5 @@
 #include "lang/mesh_object.hpp"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -10,6 +8,7 @@
 #include "crt/error.hpp"
 #include "crt/mesh.hpp"
 #include "lang/object_builder.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -32,7 +31,7 @@ Value finish_mesh(MeshOfFile mesh, const ObjectSite& site) {
   for (const auto& [name, distance] :
        {std::pair{"weld", mesh.weld}, std::pair{"stitch", mesh.stitch}}) {
     if (!(distance >= 0 && distance <= largest)) {
-      throw Error(ErrorCode::invalid_argument, fmt::format("{} must be from 0 to 1e100", name),
+      throw Error(ErrorCode::invalid_argument, text::format("{} must be from 0 to 1e100", name),
                   name);
     }
   }

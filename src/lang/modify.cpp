@@ -1,6 +1,4 @@
 // This file has what the modifiers of an entity do.
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -10,6 +8,7 @@
 #include "crt/validate.hpp"
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -167,7 +166,7 @@ Entity modified(const Entity& entity, const Modifier& modifier, const Value& ope
     std::string_view argument = error.argument();
     if (modifier.kind == ModifierKind::matrix) argument = "a transform";
     if (message.starts_with(argument))
-      message.replace(0, argument.size(), fmt::format("'{}'", name_of(modifier.kind)));
+      message.replace(0, argument.size(), text::format("'{}'", name_of(modifier.kind)));
     throw Failure{.span = modifier.operand->span, .message = message, .code = error.code()};
   }
 }

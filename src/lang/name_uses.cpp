@@ -1,7 +1,5 @@
 #include "lang/name_uses.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -10,6 +8,7 @@
 
 #include "lang/objects.hpp"
 #include "lang/tree_walk.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -181,8 +180,8 @@ void warn_of_shadowed_names(const NameUses& uses, const std::set<Symbol>& top_le
     if (!shadowing.is_bound_outside && !top_level.contains(symbol)) continue;
     reporter.warning(
         shadowing.name.span,
-        fmt::format("this sets a new '{0}' inside the macro; the '{0}' outside keeps its value",
-                    symbols.name(symbol)));
+        text::format("this sets a new '{0}' inside the macro; the '{0}' outside keeps its value",
+                     symbols.name(symbol)));
   }
 }
 
@@ -203,8 +202,8 @@ void warn_of_unused_names(const NameUses& uses, const std::set<Symbol>& read_els
                        : binding.kind == NameUses::Kind::parameter
                            ? "; begin its name with '_' if that is meant"
                            : "";
-    reporter.warning(binding.name.span,
-                     fmt::format("the {} '{}' is never used{}", word_of(binding.kind), name, hint));
+    reporter.warning(binding.name.span, text::format("the {} '{}' is never used{}",
+                                                     word_of(binding.kind), name, hint));
   }
 }
 

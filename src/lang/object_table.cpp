@@ -1,8 +1,6 @@
 // The table of objects lists attributes with their defaults, and what they become. The numbers
 // behind the defaults are those of the core's structs. The texts are for the reference, and a test
 // compares both with docs/language.md.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <numbers>
@@ -14,6 +12,7 @@
 #include "lang/no_size.hpp"
 #include "lang/object_builder.hpp"
 #include "lang/text_object.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -27,7 +26,7 @@ void warn_of(const NoSize& no_size, const ObjectSite& site) {
                    [&](const Given& given) { return given.type->name == no_size.attribute; });
   site.context.reporter.warning(
       blamed->value_span,
-      fmt::format("'{}' {}: what has no size draws nothing", no_size.attribute, no_size.reason));
+      text::format("'{}' {}: what has no size draws nothing", no_size.attribute, no_size.reason));
 }
 
 template <class Shape>
@@ -129,9 +128,9 @@ void warn_of_bright_colors(const ObjectSite& site) {
       continue;
     site.context.reporter.warning(
         given.value_span,
-        fmt::format("'{}' is brighter than white: the components of a surface's colour are shares "
-                    "from 0 to 1",
-                    given.type->name));
+        text::format("'{}' is brighter than white: the components of a surface's colour are shares "
+                     "from 0 to 1",
+                     given.type->name));
   }
 }
 

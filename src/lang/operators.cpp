@@ -1,6 +1,5 @@
 #include "lang/operators.hpp"
 
-#include <fmt/format.h>
 #include <crt/elementary.hpp>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "lang/failure.hpp"
 #include "lang/fields.hpp"
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 

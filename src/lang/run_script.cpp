@@ -1,6 +1,4 @@
 // This file runs a script from its text to a Scene.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <deque>
@@ -21,6 +19,7 @@
 #include "lang/settings.hpp"
 #include "lang/suggestion.hpp"
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -97,7 +96,7 @@ class Session {
 /// of the settings reports a number that is no such year later.
 int Session::compat_of(const Source& source) {
   if (options_.compat != 0 && options_.compat != compat_2015)
-    reporter_.error({}, fmt::format("ScriptOptions::compat must be 0 or {}", compat_2015),
+    reporter_.error({}, text::format("ScriptOptions::compat must be 0 or {}", compat_2015),
                     ErrorCode::invalid_argument);
   if (options_.compat != 0) return options_.compat;
   std::int64_t number = 0;
@@ -130,9 +129,9 @@ const Script* Session::checked(Script& script) {
 void Session::run(std::string_view text, const std::string& name, ScriptResult& result) {
   if (text.size() > context_.limits.source_bytes) {
     sources_.add(name, {});
-    reporter_.error({},
-                    fmt::format("the script is longer than {} bytes", context_.limits.source_bytes),
-                    ErrorCode::limit);
+    reporter_.error(
+        {}, text::format("the script is longer than {} bytes", context_.limits.source_bytes),
+        ErrorCode::limit);
     return;
   }
   main_directory_ = fs::path(name).parent_path();
@@ -211,7 +210,7 @@ void Session::run_import(const Import& import) {
       chain += printable(script->second) + " imports ";
     throw Failure{
         .span = span,
-        .message = fmt::format("scripts import one another: {}{}", chain, printable(name))};
+        .message = text::format("scripts import one another: {}{}", chain, printable(name))};
   }
   if (!imported_.insert(found.path).second) return;
   const Source& source = sources_.add(name, context_.files.read_text(found, bytes_left(), span),
@@ -227,7 +226,7 @@ void Session::run_library(const Import& import) {
   if (!imported_from_library_.insert(text.data()).second) return;
   if (text.size() > bytes_left())
     throw Failure{.span = import.path_span,
-                  .message = fmt::format("'{}' is too long", printable(import.path)),
+                  .message = text::format("'{}' is too long", printable(import.path)),
                   .code = ErrorCode::limit};
   run_imported(sources_.add(import.path, std::string(text)));
 }
@@ -252,11 +251,11 @@ bool Session::evaluate_override(std::string_view option,
                                 const std::pair<std::string, std::string>& setting, Given& given) {
   const auto& [name, text] = setting;
   if (text.size() > bytes_left()) {
-    reporter_.error({}, fmt::format("<{} {}> is too long", option, printable(name)),
+    reporter_.error({}, text::format("<{} {}> is too long", option, printable(name)),
                     ErrorCode::limit);
     return false;
   }
-  const Source& source = sources_.add(fmt::format("<{} {}>", option, name), text, main_directory_);
+  const Source& source = sources_.add(text::format("<{} {}>", option, name), text, main_directory_);
   given.name_span =
       given.value_span = {source.base, source.base + static_cast<std::uint32_t>(text.size())};
   const Script* script = load(source, TextKind::expression);
@@ -300,8 +299,8 @@ void Session::take_settings() {
     std::vector<std::string_view> names;
     for (const AttributeType& attribute : type.attributes) names.push_back(attribute.name);
     reporter_.error(given.name_span,
-                    fmt::format("Settings has no attribute '{}'{}", printable(setting.first),
-                                did_you_mean(setting.first, names)));
+                    text::format("Settings has no attribute '{}'{}", printable(setting.first),
+                                 did_you_mean(setting.first, names)));
   }
 }
 
@@ -316,9 +315,9 @@ void Session::refuse_unknown_variables() {
     const std::string path = library_path_of(name);
     const std::string hint =
         path.empty() ? did_you_mean(name, names)
-                     : fmt::format("; '{}' is in \"{}\", which it does not import", name, path);
-    reporter_.error(span, fmt::format("the script sets no variable '{}' at its top level{}",
-                                      printable(name), hint));
+                     : text::format("; '{}' is in \"{}\", which it does not import", name, path);
+    reporter_.error(span, text::format("the script sets no variable '{}' at its top level{}",
+                                       printable(name), hint));
   }
 }
 
@@ -390,14 +389,14 @@ ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOpti
   const bool too_long = regular && std::filesystem::file_size(path, failed) > most_bytes && !failed;
   if (too_long) {
     result.diagnostics.push_back(lang::unplaced(
-        name, fmt::format("the script is longer than {} bytes", most_bytes), ErrorCode::limit));
+        name, text::format("the script is longer than {} bytes", most_bytes), ErrorCode::limit));
     return result;
   }
   const char* reason = !exists   ? "there is no such file"
                        : regular ? "it cannot be read"
                                  : "it is not a regular file";
   result.diagnostics.push_back(
-      lang::unplaced(name, fmt::format("cannot read the script: {}", reason), ErrorCode::io));
+      lang::unplaced(name, text::format("cannot read the script: {}", reason), ErrorCode::io));
   return result;
 }
 

@@ -1,6 +1,4 @@
 // This file puts syntax errors into the words of a user.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -8,6 +6,7 @@
 
 #include "lang/suggestion.hpp"
 #include "lang/tree_builder.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -104,7 +103,7 @@ std::string TreeBuilder::open_brace(Span place) {
   const int line = reporter_.line_of(lexer_.brace_to_blame());
   if (line == reporter_.line_of(place)) return {};
   has_named_brace_ = true;
-  return fmt::format("; the '{{' in line {} is open", line);
+  return text::format("; the '{{' in line {} is open", line);
 }
 
 void TreeBuilder::syntax_error(Span place, const std::string& found,
@@ -137,13 +136,13 @@ void TreeBuilder::syntax_error(Span place, const std::string& found,
   if (at_end && !open.empty()) {
     const bool is_brace = lexer_.text(open.back()) == "{";
     const Span blamed = is_brace ? lexer_.brace_to_blame() : open.back();
-    reporter_.error(blamed, fmt::format("this '{}' is never closed", lexer_.text(blamed)));
+    reporter_.error(blamed, text::format("this '{}' is never closed", lexer_.text(blamed)));
     return;
   }
   if (contains({"Settings", "Scene", "import"}, found) && !contains(expected, found) &&
       contains(expected, "while"))
     message =
-        fmt::format("'{}' stands at the top level only, in no braces{}", found, open_brace(place));
+        text::format("'{}' stands at the top level only, in no braces{}", found, open_brace(place));
   reporter_.error(place, message);
 }
 

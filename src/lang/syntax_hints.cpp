@@ -1,13 +1,12 @@
 // This file guesses what a user of another language meant by what is no CRT, and says how CRT
 // writes it.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
 #include "lang/suggestion.hpp"
 #include "lang/tree_builder.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -66,7 +65,7 @@ std::string_view modifier_hint(std::string_view word) {
 
 void TreeBuilder::unknown_modifier(Span name) {
   const std::string_view word = lexer_.text(name);
-  reporter_.error(name, fmt::format("there is no modifier '{}'{}", word, modifier_hint(word)));
+  reporter_.error(name, text::format("there is no modifier '{}'{}", word, modifier_hint(word)));
 }
 
 void TreeBuilder::refuse_default(Span equals) {

@@ -1,7 +1,5 @@
 #include "lang/text_object.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -9,6 +7,7 @@
 
 #include "crt/text.hpp"
 #include "lang/object_builder.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -35,19 +34,19 @@ void warn_of_missing(const std::u32string& letters, const ObjectSite& site) {
   constexpr std::size_t most_shown = 8;
   std::string shown;
   for (const char32_t letter : letters.substr(0, most_shown)) {
-    shown += fmt::format("{}U+{:04X}", shown.empty() ? "" : ", ", static_cast<unsigned>(letter));
+    shown += text::format("{}U+{:04X}", shown.empty() ? "" : ", ", static_cast<unsigned>(letter));
   }
   site.context.reporter.warning(
       given_for(site, "text").value_span,
-      fmt::format("the font has no letter for {} character{} of 'text': {}{}", letters.size(),
-                  letters.size() == 1 ? "" : "s", shown,
-                  letters.size() > most_shown ? ", ..." : ""));
+      text::format("the font has no letter for {} character{} of 'text': {}{}", letters.size(),
+                   letters.size() == 1 ? "" : "s", shown,
+                   letters.size() > most_shown ? ", ..." : ""));
 }
 
 Value nothing(const ObjectSite& site, std::string_view attribute, std::string_view reason) {
   site.context.reporter.warning(
       given_for(site, attribute).value_span,
-      fmt::format("'{}' {}: what has no size draws nothing", attribute, reason));
+      text::format("'{}' {}: what has no size draws nothing", attribute, reason));
   return empty_entity();
 }
 

@@ -1,10 +1,10 @@
 #include "lang/tree_builder.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <utility>
+
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -110,7 +110,7 @@ Nesting TreeBuilder::enter(Span place) {
 
 void TreeBuilder::check_height(Span span, int height) {
   if (height <= max_nesting) return;
-  reporter_.error(span, fmt::format("nested more than {} levels deep", max_nesting),
+  reporter_.error(span, text::format("nested more than {} levels deep", max_nesting),
                   ErrorCode::limit);
   throw GiveUp{};
 }

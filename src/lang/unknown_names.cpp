@@ -1,6 +1,4 @@
 // This file puts into words that a name is unknown, and guesses what was meant.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -10,6 +8,7 @@
 #include "lang/library.hpp"
 #include "lang/name_uses.hpp"
 #include "lang/suggestion.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -52,7 +51,7 @@ std::string hint_of_object(std::string_view word) {
     const bool is_same = std::equal(
         word.begin(), word.end(), type.name.begin(), type.name.end(),
         [](char a, char b) { return a == b || (b >= 'A' && b <= 'Z' && a == b - 'A' + 'a'); });
-    if (is_same) return fmt::format("; an object is written {} {{ ... }}", type.name);
+    if (is_same) return text::format("; an object is written {} {{ ... }}", type.name);
   }
   return {};
 }
@@ -81,15 +80,15 @@ std::string Interpreter::hint_of_library(std::string_view name) const {
   const std::string path = library_path_of(name);
   if (path.empty()) return {};
   // Values from outside are computed before anything is imported.
-  return fmt::format("; '{}' is in \"{}\"{}", name, path,
-                     has_begun_ ? ": import it" : ", which is not imported yet: write its value");
+  return text::format("; '{}' is in \"{}\"{}", name, path,
+                      has_begun_ ? ": import it" : ", which is not imported yet: write its value");
 }
 
 /// Says that a name is set further down, if it is.
 std::string Interpreter::hint_of_order(Symbol name, Span span) const {
   const NamePlace* later = name_uses_ ? set_further_down(*name_uses_, name, span) : nullptr;
   if (!later) return {};
-  return fmt::format("; it is set only in line {}", context_.sources.place(later->span).line);
+  return text::format("; it is set only in line {}", context_.sources.place(later->span).line);
 }
 
 }  // namespace crt::lang

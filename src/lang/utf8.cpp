@@ -1,9 +1,9 @@
 #include "lang/utf8.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <cstring>
+
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -37,7 +37,7 @@ std::string describe_code_point(char32_t code_point) {
   constexpr char32_t first_unseen = 0xA0;  // the no-break space; the accented letters come after it
   if (text::is_control(code_point) || code_point == '\t' || code_point == first_unseen ||
       (code_point >= 0x2000 && code_point <= 0x200F) || code_point == 0xFEFF) {
-    return fmt::format("U+{:04X}", static_cast<std::uint32_t>(code_point));
+    return text::format("U+{:04X}", static_cast<std::uint32_t>(code_point));
   }
   std::string text = "'";
   append_utf8(text, code_point);

@@ -1,9 +1,9 @@
 #include "lang/value.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
+
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -23,12 +23,12 @@ std::string_view article(std::string_view word) {
 std::string type_with_article(const Value& value) {
   const std::string_view name = type_name(value);
   if (std::holds_alternative<Nothing>(value)) return std::string(name);
-  return fmt::format("{} {}", article(name), name);
+  return text::format("{} {}", article(name), name);
 }
 
 std::string float_text(double number) {
   // The sign of a NaN depends on the machine.
-  return std::isnan(number) ? "nan" : fmt::format("{}", number);
+  return std::isnan(number) ? "nan" : text::format("{}", number);
 }
 
 }  // namespace crt::lang

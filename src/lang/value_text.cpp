@@ -1,11 +1,10 @@
 // This file looks into values: as text, for equality, and by index.
-#include <fmt/format.h>
-
 #include <iterator>
 
 #include "lang/failure.hpp"
 #include "lang/operators.hpp"
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -21,17 +20,17 @@ class Writer {
   void write(const Value& value, bool quoted) {
     context_.step(span_);
     if (const auto* integer = std::get_if<std::int64_t>(&value))
-      return put(fmt::format("{}", *integer));
+      return put(text::format("{}", *integer));
     if (const auto* number = std::get_if<double>(&value)) return put(float_text(*number));
     if (const auto* boolean = std::get_if<bool>(&value)) return put(*boolean ? "true" : "false");
     if (const auto* v = std::get_if<Vec3>(&value))
       return put(
-          fmt::format("vec3({}, {}, {})", float_text(v->x), float_text(v->y), float_text(v->z)));
+          text::format("vec3({}, {}, {})", float_text(v->x), float_text(v->y), float_text(v->z)));
     if (const auto* color = std::get_if<Color>(&value)) return write_color(*color);
     if (const auto* string = std::get_if<String>(&value))
       return write_string((*string)->text, quoted);
     if (const auto* list = std::get_if<List>(&value)) return write_list(**list);
-    put(fmt::format("<{}>", type_name(value)));
+    put(text::format("<{}>", type_name(value)));
   }
 
  private:
@@ -43,9 +42,9 @@ class Writer {
 
   void write_color(const Color& color) {
     const std::string channels =
-        fmt::format("{}, {}, {}", float_text(color.r), float_text(color.g), float_text(color.b));
-    put(color.a == 1 ? fmt::format("rgb({})", channels)
-                     : fmt::format("rgba({}, {})", channels, float_text(color.a)));
+        text::format("{}, {}, {}", float_text(color.r), float_text(color.g), float_text(color.b));
+    put(color.a == 1 ? text::format("rgb({})", channels)
+                     : text::format("rgba({}, {})", channels, float_text(color.a)));
   }
 
   /// Writes a string, within a list in quotes, so that ["a, b"] and ["a", "b"] look different.

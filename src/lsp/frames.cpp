@@ -1,11 +1,10 @@
 #include "lsp/frames.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <system_error>
 
+#include "text/format.hpp"
 #include "text/letters.hpp"
 
 namespace crt::lsp {
@@ -83,7 +82,7 @@ std::optional<FrameReader::Frame> FrameReader::read_header() {
 }
 
 std::string framed(std::string_view body) {
-  return fmt::format("Content-Length: {}\r\n\r\n{}", body.size(), body);
+  return text::format("Content-Length: {}\r\n\r\n{}", body.size(), body);
 }
 
 }  // namespace crt::lsp

@@ -1,7 +1,5 @@
 #include "service/checker.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <crt/image.hpp>
@@ -11,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "text/format.hpp"
 #include "text/letters.hpp"
 
 namespace crt::service {
@@ -130,8 +129,8 @@ std::vector<Diagnostic> check_script(Program& program, ScriptOptions options) {
   if (main.text.size() > longest_checked) {
     return {{.severity = Severity::warning,
              .code = ErrorCode::limit,
-             .message = fmt::format("a script of more than {} MiB is not checked as it is typed",
-                                    longest_checked >> 20),
+             .message = text::format("a script of more than {} MiB is not checked as it is typed",
+                                     longest_checked >> 20),
              .place = {.file = main.name, .line = 1, .column = 1}}};
   }
   lower_limits(options.limits);

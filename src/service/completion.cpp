@@ -1,7 +1,5 @@
 #include "service/completion.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -15,6 +13,7 @@
 #include "lang/settings.hpp"
 #include "lang/word_byte.hpp"
 #include "service/completion_items.hpp"
+#include "text/format.hpp"
 
 namespace crt::service {
 

@@ -1,10 +1,9 @@
 #include "service/completion_items.hpp"
 
-#include <fmt/format.h>
-
 #include <variant>
 
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt::service {
 
@@ -35,9 +34,9 @@ Completion plain(CompletionKind kind, std::string label, int rank) {
 }  // namespace
 
 std::string attribute_signature(const lang::AttributeType& attribute) {
-  return fmt::format(
+  return text::format(
       "{}, {}", attribute.type,
-      attribute.required ? "required" : fmt::format("default {}", attribute.default_text));
+      attribute.required ? "required" : text::format("default {}", attribute.default_text));
 }
 
 Completion CompletionItems::attribute(const lang::ObjectType& type,
@@ -60,7 +59,7 @@ Completion CompletionItems::object(const lang::ObjectType& type) const {
     if (!attribute.required) continue;
     if (!item.detail.empty()) item.detail += ", ";
     item.detail += attribute.name;
-    item.snippet += fmt::format(" {} -> ${}", attribute.name, place++);
+    item.snippet += text::format(" {} -> ${}", attribute.name, place++);
   }
   if (place == 1) item.snippet += " $1";
   item.snippet += " }$0";
@@ -98,8 +97,8 @@ Completion CompletionItems::name(const Program& program, const lang::DeclaredNam
 
 std::string signature_of(const Program& program, const lang::DeclaredName& name) {
   const std::string_view text = program.symbols().name(name.symbol);
-  if (name.kind == lang::NameKind::parameter) return fmt::format("parameter {}", text);
-  if (name.kind == lang::NameKind::loop_variable) return fmt::format("for ({} in ...)", text);
+  if (name.kind == lang::NameKind::parameter) return text::format("parameter {}", text);
+  if (name.kind == lang::NameKind::loop_variable) return text::format("for ({} in ...)", text);
   if (!name.value) return std::string(text);
   if (const auto* macro = std::get_if<lang::MacroLiteral>(&name.value->node)) {
     std::string parameters;
@@ -107,15 +106,15 @@ std::string signature_of(const Program& program, const lang::DeclaredName& name)
       if (!parameters.empty()) parameters += ", ";
       parameters += program.symbols().name(parameter.symbol);
     }
-    return fmt::format("{}({})", text, parameters);
+    return text::format("{}({})", text, parameters);
   }
   std::string_view value = program.text_of(name.value->span);
   value = value.substr(0, value.find_first_of("\r\n"));
   if (value.size() == name.value->span.end - name.value->span.begin && value.size() < longest_value)
-    return fmt::format("{} = {}", text, lang::printable(value));
+    return text::format("{} = {}", text, lang::printable(value));
   if (const auto* object = std::get_if<lang::ObjectLiteral>(&name.value->node))
-    return fmt::format("{} = {} {{ ... }}", text, program.symbols().name(object->name.symbol));
-  return fmt::format("{} = ...", text);
+    return text::format("{} = {} {{ ... }}", text, program.symbols().name(object->name.symbol));
+  return text::format("{} = ...", text);
 }
 
 }  // namespace crt::service

@@ -1,7 +1,5 @@
 #include "service/hover.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
 #include <variant>
@@ -11,13 +9,14 @@
 #include "lang/settings.hpp"
 #include "lang/utf8.hpp"
 #include "service/completion_items.hpp"
+#include "text/format.hpp"
 
 namespace crt::service {
 
 namespace {
 
 std::string code(std::string_view text) {
-  return fmt::format("```crt\n{}\n```", text);
+  return text::format("```crt\n{}\n```", text);
 }
 
 void add(std::string& text, const std::string& paragraph) {
@@ -27,12 +26,12 @@ void add(std::string& text, const std::string& paragraph) {
 }
 
 std::string describe_object(const lang::ObjectType& type, const Reference& reference) {
-  std::string text = code(fmt::format("{} {{ }}", type.name));
+  std::string text = code(text::format("{} {{ }}", type.name));
   add(text, reference.object(type.name));
   std::string list;
   for (const lang::AttributeType& attribute : type.attributes) {
     if (!list.empty()) list += '\n';
-    list += fmt::format("- `{}`: {}", attribute.name, attribute_signature(attribute));
+    list += text::format("- `{}`: {}", attribute.name, attribute_signature(attribute));
   }
   add(text, list);
   return text;
@@ -43,7 +42,7 @@ std::string describe_attribute(const lang::ObjectType& type, std::string_view na
   const std::size_t index = lang::find_attribute(type, name);
   if (index == type.attributes.size()) return {};
   std::string text =
-      code(fmt::format("{} -> {}", name, attribute_signature(type.attributes[index])));
+      code(text::format("{} -> {}", name, attribute_signature(type.attributes[index])));
   add(text, reference.attribute(type.name, name));
   return text;
 }

@@ -1,12 +1,11 @@
 #include "service/literal.hpp"
 
-#include <fmt/format.h>
-
 #include <optional>
 #include <string_view>
 #include <variant>
 
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt::service {
 
@@ -45,7 +44,8 @@ LiteralKind kind_of_call(std::string_view builtin, std::size_t arguments) {
 /// Says what a value is that is no literal.
 std::string reason_of(const Program& program, const lang::Expression& value) {
   const auto named = [&](const char* what, const lang::Expression& name) {
-    return fmt::format("{} '{}'", what, lang::abbreviated(std::string(program.text_of(name.span))));
+    return text::format("{} '{}'", what,
+                        lang::abbreviated(std::string(program.text_of(name.span))));
   };
   if (std::holds_alternative<lang::Name>(value.node)) return named("the variable", value);
   if (const auto* call = std::get_if<lang::Call>(&value.node)) {
@@ -53,7 +53,7 @@ std::string reason_of(const Program& program, const lang::Expression& value) {
     return named("a call of", *call->callee);
   }
   if (const auto* object = std::get_if<lang::ObjectLiteral>(&value.node))
-    return fmt::format("an object {}", program.symbols().name(object->name.symbol));
+    return text::format("an object {}", program.symbols().name(object->name.symbol));
   if (std::holds_alternative<lang::ListLiteral>(value.node)) return "a list";
   return "a computed value";
 }

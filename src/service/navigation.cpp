@@ -1,7 +1,5 @@
 #include "service/navigation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <crt/error.hpp>
 #include <cstddef>
@@ -10,6 +8,7 @@
 #include <variant>
 
 #include "lang/utf8.hpp"
+#include "text/format.hpp"
 
 namespace crt::service {
 
@@ -116,8 +115,8 @@ std::vector<Place> rename_at(const Program& program, std::uint32_t byte,
     throw wrong("a name can be changed when the script has no syntax errors");
   const std::string shown = lang::abbreviated(new_name);
   if (!is_name(new_name, program.compat()))
-    throw wrong(
-        fmt::format("'{}' is no name: names begin with a small letter and are no keywords", shown));
+    throw wrong(text::format("'{}' is no name: names begin with a small letter and are no keywords",
+                             shown));
   const auto texts = renamed_texts(program, places, new_name);
   ScriptOptions renamed = options;
   renamed.open_file = [&](const std::filesystem::path& path) {
@@ -132,7 +131,7 @@ std::vector<Place> rename_at(const Program& program, std::uint32_t byte,
   };
   const Program after(texts.at(program.main().name), program.main().name, renamed);
   if (!same_meanings(program.names(), after.names()))
-    throw wrong(fmt::format("'{}' already means something where this name is used", shown));
+    throw wrong(text::format("'{}' already means something where this name is used", shown));
   return places;
 }
 

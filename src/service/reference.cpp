@@ -1,10 +1,10 @@
 #include "service/reference.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <set>
+
+#include "text/format.hpp"
 
 namespace crt::service {
 
@@ -76,7 +76,7 @@ void add_paragraph(std::string& text, const std::string& paragraph) {
 }
 
 bool names_in_code(std::string_view text, std::string_view name) {
-  return text.find(fmt::format("`{}`", name)) != std::string_view::npos;
+  return text.find(text::format("`{}`", name)) != std::string_view::npos;
 }
 
 /// Returns the sentences of a text that speak of a name.
@@ -156,13 +156,13 @@ class Reference::Reader {
     } else if (table_ == "function") {
       for (const std::string_view call : code)
         reference_.words_[first_word(call)] =
-            fmt::format("{}: {}\n\n{}", cells[0], without_links(cells[1]), cells[2]);
+            text::format("{}: {}\n\n{}", cells[0], without_links(cells[1]), cells[2]);
     } else if (table_ == "statement" && !code.empty()) {
       reference_.words_[first_word(code[0])] =
-          fmt::format("`{}`: {}", code[0], without_links(cells[2]));
+          text::format("`{}`: {}", code[0], without_links(cells[2]));
     } else if (table_ == "modifier" && !code.empty()) {
       reference_.words_[first_word(code[0])] =
-          fmt::format("`<{}>` with {}: {}", code[0], without_links(cells[1]), cells[2]);
+          text::format("`<{}>` with {}: {}", code[0], without_links(cells[1]), cells[2]);
     }
   }
 

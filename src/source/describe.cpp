@@ -1,9 +1,8 @@
 // Entities are described for those who show a scene as a tree.
-#include <fmt/format.h>
-
 #include "core/csg/entity_node.hpp"
 #include "crt/source_code.hpp"
 #include "source/shapes.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -106,11 +105,11 @@ std::string descriptions_to_json(const std::vector<EntityDescription>& descripti
   for (const EntityDescription& one : descriptions) {
     const bool is_first = text.size() == 1;
     const bool is_alone = one.parent == EntityDescription::no_parent;
-    text += fmt::format("{}{{\"kind\":\"{}\",\"parent\":{},\"values\":{{", is_first ? "" : ",",
-                        one.kind, is_alone ? "null" : std::to_string(one.parent));
+    text += text::format("{}{{\"kind\":\"{}\",\"parent\":{},\"values\":{{", is_first ? "" : ",",
+                         one.kind, is_alone ? "null" : std::to_string(one.parent));
     for (const auto& [name, value] : one.values) {
       const char* const comma = &name == &one.values.front().first ? "" : ",";
-      text += fmt::format("{}\"{}\":{}", comma, name, json_of(value));
+      text += text::format("{}\"{}\":{}", comma, name, json_of(value));
     }
     text += "}}";
   }

@@ -1,12 +1,11 @@
 #include "source/entities.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <vector>
 
 #include "source/shapes.hpp"
 #include "source/values.hpp"
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -117,7 +116,7 @@ std::string EntityWriter::operation(const CsgOperation& operation) {
   const auto kind = static_cast<std::size_t>(operation.op);
   const bool is_difference = operation.op == CsgOperator::difference;
   if (parts.size() == 2 && !syntax.is_c()) {
-    return fmt::format("({} {} {})", parts[0], signs[kind], parts[1]);
+    return text::format("({} {} {})", parts[0], signs[kind], parts[1]);
   }
   if (syntax.is_script()) return chain(parts, signs[kind]);
   const std::string first = parts.front();
@@ -130,8 +129,8 @@ std::string EntityWriter::operation(const CsgOperation& operation) {
   }
   const std::string list =
       syntax.is_cpp() ? joined("std::vector<Entity>{", parts, "}") : syntax.list(parts);
-  return fmt::format("{}({}{})", syntax.is_cpp() ? cpp_functions[kind] : python_functions[kind],
-                     is_difference ? first + ", " : "", list);
+  return text::format("{}({}{})", syntax.is_cpp() ? cpp_functions[kind] : python_functions[kind],
+                      is_difference ? first + ", " : "", list);
 }
 
 /// Combines parts one by one. A difference takes them away in their order, too.
@@ -139,7 +138,7 @@ std::string EntityWriter::chain(const std::vector<std::string>& parts, const cha
   std::string text = parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (text.size() > most_inline) text = program_.define("entity", "Entity", text);
-    text = fmt::format("({} {} {})", text, sign, parts[i]);
+    text = text::format("({} {} {})", text, sign, parts[i]);
   }
   return text;
 }
@@ -154,7 +153,7 @@ std::string EntityWriter::wrapper(const EntityWrapper& wrapper) {
   if (program_.syntax().is_c())
     return program_.create("entity", "crt_entity_with_id", {text, id + "U"});
   if (program_.syntax().is_script()) return modified(text, "id", id);
-  return called(text, fmt::format("with_id({})", id));
+  return called(text, text::format("with_id({})", id));
 }
 
 /// Scripts have no such numbers, as nothing in them could ask for one.
@@ -164,7 +163,7 @@ std::string EntityWriter::with_user(const std::string& text, std::uint64_t user)
   if (program_.syntax().is_c())
     return program_.create("entity", "crt_entity_with_user", {text, number + "U"});
   return called(text,
-                fmt::format("with_user({}{})", number, program_.syntax().is_cpp() ? "U" : ""));
+                text::format("with_user({}{})", number, program_.syntax().is_cpp() ? "U" : ""));
 }
 
 std::string EntityWriter::placed(std::string entity, const core::TransformChain& chain) {
@@ -197,9 +196,9 @@ std::string EntityWriter::placed_by(const std::string& entity, const Transform& 
     const std::string vector = syntax.vector(moves ? t : Vec3(x.x, y.y, z.z));
     if (syntax.is_script()) return modified(entity, moves ? "translate" : "scale", vector);
     if (syntax.is_python())
-      return called(entity, fmt::format("{}({})", moves ? "moved" : "scaled", vector));
-    return called(entity, fmt::format("transformed({}({}))", moves ? "translate" : "scale",
-                                      moves ? vector : "Vec3" + vector));
+      return called(entity, text::format("{}({})", moves ? "moved" : "scaled", vector));
+    return called(entity, text::format("transformed({}({}))", moves ? "translate" : "scale",
+                                       moves ? vector : "Vec3" + vector));
   }
   if (syntax.is_python() || syntax.is_script()) {
     std::vector<std::string> lists;
@@ -209,9 +208,9 @@ std::string EntityWriter::placed_by(const std::string& entity, const Transform& 
     return called(entity, "transformed(" + syntax.list(lists) + ")");
   }
   return called(
-      entity, fmt::format("transformed({{.row_x = {}, .row_y = {}, .row_z = {}, "
-                          ".translation = {}}})",
-                          syntax.vector(x), syntax.vector(y), syntax.vector(z), syntax.vector(t)));
+      entity, text::format("transformed({{.row_x = {}, .row_y = {}, .row_z = {}, "
+                           ".translation = {}}})",
+                           syntax.vector(x), syntax.vector(y), syntax.vector(z), syntax.vector(t)));
 }
 
 std::string EntityWriter::with_material(const std::string& entity, const SharedMaterial& material) {
@@ -219,22 +218,22 @@ std::string EntityWriter::with_material(const std::string& entity, const SharedM
   if (program_.syntax().is_c())
     return program_.create("entity", "crt_entity_with_material", {entity, "&" + name});
   if (program_.syntax().is_script()) return modified(entity, "material", name);
-  return called(entity, fmt::format("with_material({})", name));
+  return called(entity, text::format("with_material({})", name));
 }
 
 /// Puts a modifier behind an entity.
 std::string EntityWriter::modified(const std::string& entity, std::string_view modifier,
                                    const std::string& operand) const {
   if (modifier == "material" || modifier == "id" || modifier == "matrix")
-    program_.refuse_in_2015(fmt::format("'<{} ...>'", modifier));
-  return fmt::format("{} <{} {}>", entity, modifier, operand);
+    program_.refuse_in_2015(text::format("'<{} ...>'", modifier));
+  return text::format("{} <{} {}>", entity, modifier, operand);
 }
 
 /// Calls a member of an entity. In C++ a primitive has none.
 std::string EntityWriter::called(const std::string& entity, const std::string& call) const {
   const bool is_primitive = program_.syntax().is_cpp() && entity.ends_with('}');
-  return is_primitive ? fmt::format("Entity({}).{}", entity, call)
-                      : fmt::format("{}.{}", entity, call);
+  return is_primitive ? text::format("Entity({}).{}", entity, call)
+                      : text::format("{}.{}", entity, call);
 }
 
 }  // namespace crt::source

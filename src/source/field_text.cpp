@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <array>
 #include <limits>
@@ -7,6 +6,7 @@
 #include "core/geometry/implicit/field_node.hpp"
 #include "crt/error.hpp"
 #include "source/shapes.hpp"
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -38,11 +38,11 @@ class FieldWriter {
     std::string text = written(node);
     if (text.size() > most_bytes_) {
       throw Error(ErrorCode::limit,
-                  fmt::format("a field would be longer than {} bytes", most_bytes_));
+                  text::format("a field would be longer than {} bytes", most_bytes_));
     }
     if (names_parts_ && text.size() > most_inline) {
-      const std::string name = fmt::format("part_{}", ++parts_);
-      statements_ += fmt::format("    {} = {}\n", name, text);
+      const std::string name = text::format("part_{}", ++parts_);
+      statements_ += text::format("    {} = {}\n", name, text);
       text = name;
     }
     return texts_[&node] = std::move(text);
@@ -60,7 +60,7 @@ class FieldWriter {
       case FieldOperation::z:
         return coordinate(2);
       case FieldOperation::negate:
-        return fmt::format("(-{})", text(*node.a));
+        return text::format("(-{})", text(*node.a));
       case FieldOperation::add:
         return binary(node, "+");
       case FieldOperation::subtract:
@@ -70,10 +70,10 @@ class FieldWriter {
       case FieldOperation::divide:
         return binary(node, "/");
       case FieldOperation::square:
-        return fmt::format("({} ** 2)", text(*node.a));
+        return text::format("({} ** 2)", text(*node.a));
       case FieldOperation::whole_power:
       case FieldOperation::power:
-        return fmt::format("({} ** {})", text(*node.a), Syntax::number(node.number));
+        return text::format("({} ** {})", text(*node.a), Syntax::number(node.number));
       default:
         return function(node);
     }
@@ -81,8 +81,8 @@ class FieldWriter {
 
   std::string function(const FieldNode& node) {
     const std::string name = name_of(node.operation);
-    return node.b ? fmt::format("{}({}, {})", name, text(*node.a), text(*node.b))
-                  : fmt::format("{}({})", name, text(*node.a));
+    return node.b ? text::format("{}({}, {})", name, text(*node.a), text(*node.b))
+                  : text::format("{}({})", name, text(*node.a));
   }
 
   static const char* name_of(FieldOperation operation) {
@@ -137,7 +137,7 @@ class FieldWriter {
   }
 
   std::string binary(const FieldNode& node, const char* sign) {
-    return fmt::format("({} {} {})", text(*node.a), sign, text(*node.b));
+    return text::format("({} {} {})", text(*node.a), sign, text(*node.b));
   }
 
   static constexpr std::size_t most_inline = 80;
@@ -169,9 +169,9 @@ std::string field_value(Program& program, const Field& field) {
   program.refuse_in_2015("macros that return a value");
   const std::string name = program.new_name("field");
   const std::string coordinates = writer.coordinates();
-  program.add_block(fmt::format("{} = Macro ({}) {{\n{}    return {}\n}}\n", name, coordinates,
-                                writer.statements(), text));
-  return program.remember(&field.node(), fmt::format("{}({})", name, coordinates));
+  program.add_block(text::format("{} = Macro ({}) {{\n{}    return {}\n}}\n", name, coordinates,
+                                 writer.statements(), text));
+  return program.remember(&field.node(), text::format("{}({})", name, coordinates));
 }
 
 }  // namespace crt::source

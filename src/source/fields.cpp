@@ -1,10 +1,10 @@
 #include "source/fields.hpp"
 
-#include <fmt/format.h>
-
 #include <cctype>
 #include <limits>
 #include <utility>
+
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -77,15 +77,14 @@ Color Fields::required(const Color& usual) const {
 }
 
 std::vector<std::string> Fields::assignments() const {
-  const char* const form = syntax_.is_script()   ? "{} -> {}"
-                           : syntax_.is_python() ? "{}={}"
-                                                 : ".{} = {}";
+  const bool is_code = !syntax_.is_script() && !syntax_.is_python();
+  const char* const sign = syntax_.is_script() ? " -> " : syntax_.is_python() ? "=" : " = ";
   std::vector<std::string> items;
   for (const StructField& field : fields_) {
     const auto* const vector = std::get_if<Vec3>(&field.value);
     const std::string value =
         vector != nullptr ? syntax_.vector(*vector) : std::get<std::string>(field.value);
-    items.push_back(fmt::format(fmt::runtime(form), field.name, value));
+    items.push_back(text::format("{}{}{}{}", is_code ? "." : "", field.name, sign, value));
   }
   return items;
 }

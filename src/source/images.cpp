@@ -1,10 +1,10 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/geometry/height_field/grid.hpp"
 #include "crt/error.hpp"
 #include "source/values.hpp"
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -37,7 +37,7 @@ std::string python_bytes(const std::vector<std::byte>& file) {
   for (std::size_t i = 0; i < file.size(); i += bytes_of_a_line) {
     std::string line = "\"";
     for (std::size_t k = i; k < std::min(i + bytes_of_a_line, file.size()); ++k)
-      line += fmt::format("{:02x}", std::to_integer<unsigned>(file[k]));
+      line += text::format("{:02x}", std::to_integer<unsigned>(file[k]));
     lines.push_back(line + "\"");
   }
   std::string text = "bytes.fromhex(";
@@ -85,7 +85,7 @@ std::string image_name(Program& program, const std::shared_ptr<const Image>& ima
   const std::vector<std::byte> file = file_of(*image);
   program.require_space(file.size());
   if (syntax.is_python()) {
-    name = program.define("image", "", fmt::format("crt.Image.decode({})", python_bytes(file)));
+    name = program.define("image", "", text::format("crt.Image.decode({})", python_bytes(file)));
     return program.remember(image.get(), name);
   }
   std::vector<std::string> items;
@@ -94,12 +94,12 @@ std::string image_name(Program& program, const std::shared_ptr<const Image>& ima
   const std::string bytes = program.array("image_file", "unsigned char", items);
   if (syntax.is_c()) {
     name = program.create("image", "crt_image_decode",
-                          {bytes, fmt::format("sizeof {}", bytes), "\"image\""});
+                          {bytes, text::format("sizeof {}", bytes), "\"image\""});
   } else {
     name = program.define("image", "auto",
-                          fmt::format("std::make_shared<const Image>(\n      "
-                                      "Image::decode(std::as_bytes(std::span({})), \"image\"))",
-                                      bytes));
+                          text::format("std::make_shared<const Image>(\n      "
+                                       "Image::decode(std::as_bytes(std::span({})), \"image\"))",
+                                       bytes));
   }
   return program.remember(image.get(), name);
 }

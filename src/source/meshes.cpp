@@ -1,6 +1,4 @@
 // Meshes are written as the triangles and attributes that make them again.
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <limits>
@@ -12,6 +10,7 @@
 #include "source/mesh_parts.hpp"
 #include "source/shapes.hpp"
 #include "source/values.hpp"
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -94,7 +93,7 @@ std::vector<std::string> row_items(const Syntax& syntax, const Rows& rows) {
     if constexpr (requires { row.x; }) {
       numbers = number_items(std::array<double, 3>{row.x, row.y, row.z});
     } else {
-      for (const auto number : row) numbers.push_back(fmt::format("{}", number));
+      for (const auto number : row) numbers.push_back(text::format("{}", number));
     }
     if (syntax.is_c()) {
       items.insert(items.end(), numbers.begin(), numbers.end());
@@ -128,15 +127,15 @@ class MeshWriter {
       if (is_nonzero) {
         return program_.define(
             "mesh", "auto",
-            fmt::format("mesh_triangles({}, {},\n      {},\n      MeshOptions{{.fill = "
-                        "FillRule::nonzero}})",
-                        positions, triangles, all.empty() ? "MeshAttributes{}" : all));
+            text::format("mesh_triangles({}, {},\n      {},\n      MeshOptions{{.fill = "
+                         "FillRule::nonzero}})",
+                         positions, triangles, all.empty() ? "MeshAttributes{}" : all));
       }
       return program_.define(
           "mesh", "auto",
           all.empty()
-              ? fmt::format("mesh_triangles({}, {})", positions, triangles)
-              : fmt::format("mesh_triangles({}, {},\n      {})", positions, triangles, all));
+              ? text::format("mesh_triangles({}, {})", positions, triangles)
+              : text::format("mesh_triangles({}, {},\n      {})", positions, triangles, all));
     }
     Fields all(syntax);
     all.add_text("", "positions", positions);
@@ -177,7 +176,7 @@ class MeshWriter {
   void add_array(const char* name, const std::string& array) {
     fields_.add_text(name, name,
                      program_.syntax().is_cpp()
-                         ? fmt::format("{{std::begin({0}), std::end({0})}}", array)
+                         ? text::format("{{std::begin({0}), std::end({0})}}", array)
                          : array);
   }
 
@@ -232,13 +231,13 @@ std::string mesh_value(Program& program, const Mesh& mesh) {
   if (program.syntax().is_c()) return name;
   const std::string material = mesh.material ? material_name(program, *mesh.material) : "";
   if (program.syntax().is_script()) {
-    return material.empty() ? fmt::format("Mesh {{ file -> {} }}", name)
-                            : fmt::format("Mesh {{ file -> {} material -> {} }}", name, material);
+    return material.empty() ? text::format("Mesh {{ file -> {} }}", name)
+                            : text::format("Mesh {{ file -> {} material -> {} }}", name, material);
   }
   if (program.syntax().is_python())
-    return material.empty() ? name : fmt::format("{}.with_material({})", name, material);
-  return material.empty() ? fmt::format("Mesh{{.triangles = {}}}", name)
-                          : fmt::format("Mesh{{.triangles = {}, .material = {}}}", name, material);
+    return material.empty() ? name : text::format("{}.with_material({})", name, material);
+  return material.empty() ? text::format("Mesh{{.triangles = {}}}", name)
+                          : text::format("Mesh{{.triangles = {}, .material = {}}}", name, material);
 }
 
 }  // namespace crt::source

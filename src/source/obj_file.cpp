@@ -1,9 +1,8 @@
 // Writes the OBJ files of scripts, and the libraries of their materials (MTL).
-#include <fmt/format.h>
-
 #include "crt/error.hpp"
 #include "source/mesh_parts.hpp"
 #include "source/values.hpp"
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -17,9 +16,9 @@ std::string numbers_line(const char* word, std::span<const double> numbers) {
 
 [[noreturn]] void refuse_material(const char* what) {
   throw Error(ErrorCode::unsupported,
-              fmt::format("a mesh has materials of its own with {}, which its file cannot have: "
-                          "give the whole mesh one material",
-                          what));
+              text::format("a mesh has materials of its own with {}, which its file cannot have: "
+                           "give the whole mesh one material",
+                           what));
 }
 
 /// Refuses materials that are more than what a library says of them.
@@ -46,8 +45,8 @@ std::string definition_of(Program& program, const Material& material) {
     text += numbers_line("Kd", std::array{color->r, color->g, color->b});
   } else {
     const auto& map = std::get<ImageMap>(std::get<Pattern>(material.color));
-    text += fmt::format("map_Kd -s {} {} {}\n", map.repeat_u, map.repeat_v,
-                        image_file_name(program, *map.image));
+    text += text::format("map_Kd -s {} {} {}\n", map.repeat_u, map.repeat_v,
+                         image_file_name(program, *map.image));
   }
   const double specular = material.specular;
   if (specular != 0) {
@@ -61,7 +60,7 @@ std::string definition_of(Program& program, const Material& material) {
 std::string library_of(Program& program, std::span<const SharedMaterial> materials) {
   std::string text;
   for (std::size_t i = 0; i < materials.size(); ++i)
-    text += fmt::format("newmtl material_{}\n{}", i, definition_of(program, *materials[i]));
+    text += text::format("newmtl material_{}\n{}", i, definition_of(program, *materials[i]));
   return text;
 }
 
@@ -78,7 +77,7 @@ std::string face_line(const MeshParts& parts, std::size_t triangle) {
   for (std::size_t corner = 0; corner < 3; ++corner) {
     const std::string uv = number_at(attributes.uv_indices, triangle, corner);
     const std::string normal = number_at(attributes.normal_indices, triangle, corner);
-    line += fmt::format(" {}", std::uint64_t{parts.triangles[triangle][corner]} + 1);
+    line += text::format(" {}", std::uint64_t{parts.triangles[triangle][corner]} + 1);
     if (!uv.empty() || !normal.empty()) line += "/" + uv;
     if (!normal.empty()) line += "/" + normal;
   }
@@ -93,7 +92,7 @@ std::string faces_of(const MeshParts& parts) {
   for (std::size_t i = 0; i < parts.triangles.size(); ++i) {
     if (!attributes.materials.empty() && attributes.material_of_triangle[i] != current) {
       current = attributes.material_of_triangle[i];
-      text += current == no_index ? "usemtl\n" : fmt::format("usemtl material_{}\n", current);
+      text += current == no_index ? "usemtl\n" : text::format("usemtl material_{}\n", current);
     }
     text += face_line(parts, i);
   }
@@ -111,7 +110,7 @@ std::string obj_file_name(Program& program, const MeshParts& parts) {
   std::string text;
   if (!attributes.materials.empty()) {
     const std::string library = library_of(program, attributes.materials);
-    text += fmt::format("mtllib {}\n", program.add_file(bytes_of(library), "mtl"));
+    text += text::format("mtllib {}\n", program.add_file(bytes_of(library), "mtl"));
   }
   for (const Vec3& v : parts.positions) text += numbers_line("v", std::array{v.x, v.y, v.z});
   for (const Vec3& n : attributes.normals) text += numbers_line("vn", std::array{n.x, n.y, n.z});

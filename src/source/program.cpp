@@ -1,7 +1,5 @@
 #include "source/program.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "core/base/sha256.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -59,13 +58,13 @@ void Program::grow(std::size_t bytes) {
 void Program::refuse() const {
   throw Error(
       ErrorCode::limit,
-      fmt::format(
+      text::format(
           "the source code would be longer than {} bytes{}", most_bytes_,
           syntax_.is_script() ? "" : ": load large meshes and images from their files instead"));
 }
 
 std::string Program::new_name(const std::string& kind) {
-  return fmt::format("{}_{}", kind, ++numbers_[kind]);
+  return text::format("{}_{}", kind, ++numbers_[kind]);
 }
 
 void Program::add_line(const std::string& line) {
@@ -82,7 +81,7 @@ void Program::add_block(const std::string& lines) {
 std::string Program::add_file(std::span<const std::byte> content, const std::string& ending) {
   constexpr std::size_t digits = 16;
   std::string name =
-      fmt::format("{}-{}.{}", plain_name(name_), core::sha256(content).substr(0, digits), ending);
+      text::format("{}-{}.{}", plain_name(name_), core::sha256(content).substr(0, digits), ending);
   const bool is_known = std::any_of(files_.begin(), files_.end(),
                                     [&](const SourceFile& file) { return file.name == name; });
   if (!is_known) files_.push_back({name, {content.begin(), content.end()}});
@@ -92,17 +91,17 @@ std::string Program::add_file(std::span<const std::byte> content, const std::str
 std::string Program::define(const std::string& kind, const std::string& type,
                             const std::string& value) {
   std::string name = new_name(kind);
-  add_line(syntax_.is_cpp() ? fmt::format("const {} {} = {};", type, name, value)
-                            : fmt::format("{} = {}", name, value));
+  add_line(syntax_.is_cpp() ? text::format("const {} {} = {};", type, name, value)
+                            : text::format("{} = {}", name, value));
   return name;
 }
 
 std::string Program::create(const std::string& kind, const std::string& function,
                             std::vector<std::string> arguments) {
   std::string name = new_name(kind);
-  add_line(fmt::format("crt_{0}* {1} = NULL;", kind, name));
+  add_line(text::format("crt_{0}* {1} = NULL;", kind, name));
   arguments.push_back("&" + name);
-  add_line(joined(fmt::format("check({}(", function), arguments, "));"));
+  add_line(joined(text::format("check({}(", function), arguments, "));"));
   made_.push_back({kind, name});
   return name;
 }
@@ -111,16 +110,16 @@ std::string Program::structure(const std::string& kind, const std::string& name,
                                const Fields& fields, const std::string& type) {
   if (!syntax_.is_c()) return fields.constructed(name);
   std::string variable = new_name(kind);
-  add_line(fmt::format("crt_{} {};", kind, variable));
-  add_line(type.empty() ? fmt::format("check(crt_{0}_init(&{1}, sizeof {1}));", kind, variable)
-                        : fmt::format("check(crt_{0}_init_type(&{1}, sizeof {1}, {2}));", kind,
-                                      variable, type));
+  add_line(text::format("crt_{} {};", kind, variable));
+  add_line(type.empty() ? text::format("check(crt_{0}_init(&{1}, sizeof {1}));", kind, variable)
+                        : text::format("check(crt_{0}_init_type(&{1}, sizeof {1}, {2}));", kind,
+                                       variable, type));
   for (const StructField& field : fields.all()) {
     if (const auto* v = std::get_if<Vec3>(&field.value)) {
-      add_line(fmt::format("set({}.{}, {}, {}, {});", variable, field.name, v->x, v->y, v->z));
+      add_line(text::format("set({}.{}, {}, {}, {});", variable, field.name, v->x, v->y, v->z));
     } else {
       add_line(
-          fmt::format("{}.{} = {};", variable, field.name, std::get<std::string>(field.value)));
+          text::format("{}.{} = {};", variable, field.name, std::get<std::string>(field.value)));
     }
   }
   return variable;
@@ -131,7 +130,7 @@ std::string Program::array(const std::string& kind, const std::string& type,
   if (syntax_.is_python() || syntax_.is_script()) return define(kind, "", syntax_.list(items));
   std::string name = new_name(kind);
   const std::string text =
-      wrapped(joined(fmt::format("static const {} {}[] = {{", type, name), items, "};\n"), 4);
+      wrapped(joined(text::format("static const {} {}[] = {{", type, name), items, "};\n"), 4);
   grow(text.size());
   arrays_ += text;
   return name;
@@ -140,7 +139,7 @@ std::string Program::array(const std::string& kind, const std::string& type,
 std::string Program::local_array(const std::string& kind, const std::string& type,
                                  std::span<const std::string> items) {
   std::string name = new_name(kind);
-  add_line(joined(fmt::format("{} {}[] = {{", type, name), items, "};"));
+  add_line(joined(text::format("{} {}[] = {{", type, name), items, "};"));
   return name;
 }
 
@@ -164,9 +163,9 @@ void Program::warn_once(const std::string& warning) {
 void Program::refuse_in_2015(const std::string& what) const {
   if (!is_of_2015_) return;
   throw Error(ErrorCode::unsupported,
-              fmt::format("scripts of 2015 have no {}, so that this scene of theirs cannot be "
-                          "written as one",
-                          what));
+              text::format("scripts of 2015 have no {}, so that this scene of theirs cannot be "
+                           "written as one",
+                           what));
 }
 
 std::string Program::known(const void* thing) const {
@@ -187,7 +186,7 @@ std::string Program::remember(const void* thing, std::string name) {
 std::string Program::releases(const std::string& kept) const {
   std::string result;
   for (const Made& made : made_) {
-    if (made.name != kept) result += fmt::format("  crt_{}_release({});\n", made.kind, made.name);
+    if (made.name != kept) result += text::format("  crt_{}_release({});\n", made.kind, made.name);
   }
   return result;
 }

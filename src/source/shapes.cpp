@@ -1,13 +1,12 @@
 #include "source/shapes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/geometry/height_field/grid.hpp"
 #include "core/geometry/profile/profile.hpp"
 #include "crt/error.hpp"
 #include "source/values.hpp"
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -121,7 +120,7 @@ std::string contour_list(const Syntax& syntax, const Contour& contour) {
   std::vector<std::string> corners;
   for (const auto& [x, y, bulge] : contour) {
     const std::string numbers =
-        bulge == 0 ? fmt::format("{}, {}", x, y) : fmt::format("{}, {}, {}", x, y, bulge);
+        bulge == 0 ? text::format("{}, {}", x, y) : text::format("{}, {}, {}", x, y, bulge);
     corners.push_back(syntax.is_script()   ? "[" + numbers + "]"
                       : syntax.is_python() ? "(" + numbers + ")"
                                            : "{" + numbers + "}");
@@ -137,8 +136,8 @@ std::string profile_name(Program& program, const std::shared_ptr<const Profile>&
     name = program.create("profile", "crt_profile_create", {});
     const auto add = [&](const char* function, const ProfilePoint& to) {
       const std::string bulge = to.bulge == 0 ? "" : ", " + Syntax::number(to.bulge);
-      program.add_line(fmt::format("check(crt_profile_{}({}, {}, {}{}));", function, name, to.x,
-                                   to.y, function[0] == 'a' ? bulge : ""));
+      program.add_line(text::format("check(crt_profile_{}({}, {}, {}{}));", function, name, to.x,
+                                    to.y, function[0] == 'a' ? bulge : ""));
     };
     for (const Contour& contour : contours) {
       add("move_to", contour.front());
@@ -154,7 +153,7 @@ std::string profile_name(Program& program, const std::shared_ptr<const Profile>&
     const std::string list = program.syntax().list(lists);
     name = program.define("profile", "auto",
                           program.syntax().is_cpp()
-                              ? fmt::format("make_profile(std::vector<Contour>{})", list)
+                              ? text::format("make_profile(std::vector<Contour>{})", list)
                               : list);
   }
   return program.remember(profile.get(), name);
@@ -179,10 +178,10 @@ std::string heights_name(Program& program, const std::shared_ptr<const HeightGri
   std::string name = has_rows ? program.define("heights", "", syntax.list(rows))
                               : program.array("heights", "double", all);
   if (syntax.is_cpp()) {
-    name =
-        program.define("height_grid", "auto",
-                       fmt::format("make_height_grid({{std::begin({0}), std::end({0})}}, {1}, {2})",
-                                   name, grid->columns(), grid->rows()));
+    name = program.define(
+        "height_grid", "auto",
+        text::format("make_height_grid({{std::begin({0}), std::end({0})}}, {1}, {2})", name,
+                     grid->columns(), grid->rows()));
   }
   return program.remember(grid.get(), name);
 }
@@ -214,15 +213,15 @@ SharedPart shared_part(Program& program, const Implicit& it) {
   constexpr std::size_t most_bytes = std::size_t{1} << 20;
   const std::string content = field_text(it.field, most_bytes);
   const std::string text = program.syntax().text(content);
-  if (program.syntax().is_cpp()) return {"field", {fmt::format("parse_field({})", text)}};
+  if (program.syntax().is_cpp()) return {"field", {text::format("parse_field({})", text)}};
   SharedPart part{"field", {text}};
   if (program.syntax().is_c()) part.values.push_back(std::to_string(content.size()));
   return part;
 }
 SharedPart shared_part(Program&, const Custom& it) {
   throw Error(ErrorCode::unsupported,
-              fmt::format("{} is computed by a program, which cannot be written as source code",
-                          it.shape->name()));
+              text::format("{} is computed by a program, which cannot be written as source code",
+                           it.shape->name()));
 }
 
 std::string value_text(Program& program, const Argument& argument) {
@@ -238,7 +237,7 @@ std::string c_value(Program& program, const ShapeCode& code, SharedPart part) {
   for (const Argument& argument : code.arguments) {
     if (*argument.python != '\0') arguments.push_back(value_text(program, argument));
   }
-  return program.create("entity", fmt::format("crt_{}_create", code.c), std::move(arguments));
+  return program.create("entity", text::format("crt_{}_create", code.c), std::move(arguments));
 }
 
 /// Returns an extrusion as scripts have it, which begins at z = 0.
@@ -255,7 +254,7 @@ std::string script_value(Program& program, const Extrusion& extrusion) {
   if (is_at_origin) return text;
   program.warn_once(
       "an extrusion that does not begin at z = 0 is moved there: single pixels may differ");
-  return fmt::format("{} <translate {}>", text, program.syntax().vector({0, 0, low}));
+  return text::format("{} <translate {}>", text, program.syntax().vector({0, 0, low}));
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 #include "crt/source_code.hpp"
 
-#include <fmt/format.h>
-
 #include "crt/file.hpp"
 #include "source/entities.hpp"
 #include "source/templates.hpp"
 #include "source/values.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -45,38 +44,38 @@ std::string begin_of(const Syntax& syntax, const Program& program, bool is_alone
 std::string function_text(const Program& program, const Function& function) {
   const Syntax& syntax = program.syntax();
   if (syntax.is_script()) {
-    return fmt::format("{} = Macro () {{\n{}    return {}\n}}\n", function.name,
-                       indented(program.lines()), function.result);
+    return text::format("{} = Macro () {{\n{}    return {}\n}}\n", function.name,
+                        indented(program.lines()), function.result);
   }
   const std::string arrays = program.arrays().empty() ? std::string() : program.arrays() + "\n";
   if (syntax.is_python()) {
-    return fmt::format("def {}():\n{}    return {}\n", function.name, program.lines(),
-                       function.result);
+    return text::format("def {}():\n{}    return {}\n", function.name, program.lines(),
+                        function.result);
   }
   const std::string head =
-      syntax.is_cpp() ? fmt::format("{} {}() {{\n", function.type, function.name)
-                      : fmt::format("static {}* {}(void) {{\n", function.type, function.name);
+      syntax.is_cpp() ? text::format("{} {}() {{\n", function.type, function.name)
+                      : text::format("static {}* {}(void) {{\n", function.type, function.name);
   return arrays + head + program.lines() + program.releases(function.result) +
-         fmt::format("  return {};\n}}\n", function.result);
+         text::format("  return {};\n}}\n", function.result);
 }
 
 /// Adds a thing to the scene in each language.
 void add_to_scene(Program& program, const char* list, const char* kind, const std::string& value) {
   const Syntax& syntax = program.syntax();
   if (syntax.is_cpp()) {
-    program.add_line(fmt::format("scene.{}.push_back({});", list, value));
+    program.add_line(text::format("scene.{}.push_back({});", list, value));
   } else if (syntax.is_python()) {
-    program.add_line(fmt::format("scene.add({})", value));
+    program.add_line(text::format("scene.add({})", value));
   } else {
-    program.add_line(fmt::format("check(crt_scene_add_{}(scene, {}));", kind, value));
+    program.add_line(text::format("check(crt_scene_add_{}(scene, {}));", kind, value));
   }
 }
 
 void set_in_scene(Program& program, const char* kind, const std::string& value) {
   const Syntax& syntax = program.syntax();
   program.add_line(syntax.is_c()
-                       ? fmt::format("check(crt_scene_set_{}(scene, &{}));", kind, value)
-                       : fmt::format("scene.{} = {}{}", kind, value, syntax.is_cpp() ? ";" : ""));
+                       ? text::format("check(crt_scene_set_{}(scene, &{}));", kind, value)
+                       : text::format("scene.{} = {}{}", kind, value, syntax.is_cpp() ? ";" : ""));
 }
 
 void write_scene(Program& program, const Scene& scene) {

@@ -1,11 +1,10 @@
 #include "source/syntax.hpp"
 
-#include <fmt/format.h>
-
 #include <cctype>
 #include <cmath>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 #include "text/utf8.hpp"
 
 namespace crt::source {
@@ -66,7 +65,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
 
 std::string Syntax::number(double number) {
   if (number == 0 && std::signbit(number)) return "-0.0";  // a whole number has no sign at 0
-  return fmt::format("{}", number);
+  return text::format("{}", number);
 }
 
 std::string Syntax::boolean(bool value) const {
@@ -94,7 +93,7 @@ std::string Syntax::text(const std::string& content) const {
     } else if (c == '\n') {
       result += "\\n";
     } else if (byte < ' ' || byte == 0x7f) {
-      result += is_script() ? fmt::format("\\u{:04x}", byte) : fmt::format("\\{:03o}", byte);
+      result += is_script() ? text::format("\\u{:04x}", byte) : text::format("\\{:03o}", byte);
     } else if (c == '?' && (is_cpp() || is_c())) {
       result += "\\?";  // two would begin a trigraph
     } else {
@@ -106,7 +105,7 @@ std::string Syntax::text(const std::string& content) const {
 }
 
 std::string Syntax::vector(const Vec3& v) const {
-  const std::string numbers = fmt::format("{}, {}, {}", number(v.x), number(v.y), number(v.z));
+  const std::string numbers = text::format("{}, {}, {}", number(v.x), number(v.y), number(v.z));
   if (is_cpp()) return "{" + numbers + "}";
   if (is_python()) return "(" + numbers + ")";
   if (is_script()) return "vec3(" + numbers + ")";
@@ -115,11 +114,10 @@ std::string Syntax::vector(const Vec3& v) const {
 
 std::string Syntax::color(const Color& color) const {
   const std::string numbers =
-      fmt::format("{}, {}, {}", number(color.r), number(color.g), number(color.b));
-  if (color.a == 1)
-    return fmt::format(fmt::runtime(is_script() ? "rgb({})" : "Color{{{}}}"), numbers);
-  return fmt::format(fmt::runtime(is_script() ? "rgba({}, {})" : "Color{{{}, {}}}"), numbers,
-                     number(color.a));
+      text::format("{}, {}, {}", number(color.r), number(color.g), number(color.b));
+  if (color.a == 1) return is_script() ? "rgb(" + numbers + ")" : "Color{" + numbers + "}";
+  const std::string with_alpha = numbers + ", " + number(color.a);
+  return is_script() ? "rgba(" + with_alpha + ")" : "Color{" + with_alpha + "}";
 }
 
 std::string Syntax::list(std::span<const std::string> items) const {
@@ -127,7 +125,7 @@ std::string Syntax::list(std::span<const std::string> items) const {
 }
 
 std::string Syntax::constructed(const std::string& name, std::span<const std::string> items) const {
-  if (is_python()) return joined(fmt::format("crt.{}(", name), items, ")");
+  if (is_python()) return joined(text::format("crt.{}(", name), items, ")");
   if (!is_script()) return joined(name + "{", items, "}");
   std::string text = name + " { ";
   for (const std::string& item : items) text += item + " ";
@@ -135,7 +133,7 @@ std::string Syntax::constructed(const std::string& name, std::span<const std::st
 }
 
 std::string Syntax::enumerator(const char* type, const char* prefix, std::string_view name) const {
-  if (is_cpp()) return fmt::format("{}::{}", type, name);
+  if (is_cpp()) return text::format("{}::{}", type, name);
   if (is_script()) {
     std::string word(name);
     std::erase(word, '_');
@@ -143,7 +141,8 @@ std::string Syntax::enumerator(const char* type, const char* prefix, std::string
   }
   std::string upper(name);
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return is_python() ? fmt::format("crt.{}.{}", type, upper) : fmt::format("{}_{}", prefix, upper);
+  return is_python() ? text::format("crt.{}.{}", type, upper)
+                     : text::format("{}_{}", prefix, upper);
 }
 
 }  // namespace crt::source

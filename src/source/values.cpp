@@ -1,12 +1,11 @@
 #include "source/values.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <limits>
 #include <type_traits>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::source {
 
@@ -112,7 +111,7 @@ class PatternFields {
     if (!pattern) return;
     const std::string value = pattern_in_field(program_, pattern->pattern);
     fields_.add_text(name, name,
-                     program_.syntax().is_cpp() ? fmt::format("nested({})", value) : value);
+                     program_.syntax().is_cpp() ? text::format("nested({})", value) : value);
   }
 
   void add_colors(const std::vector<ColorStop>& stops) {
@@ -123,13 +122,14 @@ class PatternFields {
     const bool is_python = syntax.is_python();
     for (const auto& [position, color] : stops) {
       if (syntax.is_script()) {
-        items.push_back(fmt::format("[{}, {}]", position, syntax.color(color)));
+        items.push_back(text::format("[{}, {}]", position, syntax.color(color)));
         continue;
       }
-      items.push_back(fmt::format(fmt::runtime(is_python         ? "({}, ({}, {}, {}), {})"
-                                               : syntax.is_cpp() ? "{{{}, {{{}, {}, {}, {}}}}}"
-                                                                 : "{{{}, {{{}, {}, {}}}, {}}}"),
-                                  position, color.r, color.g, color.b, color.a));
+      const std::string rgb = text::format("{}, {}, {}", color.r, color.g, color.b);
+      items.push_back(is_python ? text::format("({}, ({}), {})", position, rgb, color.a)
+                      : syntax.is_cpp()
+                          ? text::format("{{{}, {{{}, {}}}}}", position, rgb, color.a)
+                          : text::format("{{{}, {{{}}}, {}}}", position, rgb, color.a));
     }
     if (!syntax.is_c()) return fields_.add_text("colors", "colors", syntax.list(items));
     fields_.add_text("", "colors", program_.array("colors", "crt_color_stop", items));
@@ -150,7 +150,7 @@ std::string pattern_value(Program& program, const Pattern& pattern) {
 void add_pattern(Program& program, Fields& fields, const char* cpp, const char* c,
                  const Pattern& pattern) {
   const std::string value = pattern_in_field(program, pattern);
-  fields.add_text(cpp, c, program.syntax().is_cpp() ? fmt::format("Pattern{{{}}}", value) : value);
+  fields.add_text(cpp, c, program.syntax().is_cpp() ? text::format("Pattern{{{}}}", value) : value);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ recorded='^tests/abi/(1\.0|older/older_crt\.h)' # kept as it was released
 
 # A folder of src/core uses those before it in this list, and itself.
 layers=(base simd math ray tasks sampling geometry csg shading camera compile accel intersect
-  prepare render image mesh_files contours)
+  prepare render image mesh_files contours left_out)
 check_layers() {
   local position later
   for position in "${!layers[@]}"; do
@@ -202,6 +202,8 @@ only_in 'embree' src/core/accel | complain "Embree outside src/core/accel"
 only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel |
   complain "TBB outside src/core/tasks and src/core/accel"
 only_in 'png\.h' python/native | complain "libpng outside python/native"
+only_in 'fmt/' src/cli src/tev |
+  complain "The library fmt outside the command: libraries use text::format of text/format.hpp"
 only_in 'zlib' src/core/image src/core/mesh_files |
   complain "zlib outside src/core/image and src/core/mesh_files"
 only_in 'expat' src/core/mesh_files | complain "Expat outside src/core/mesh_files"

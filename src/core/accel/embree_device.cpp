@@ -1,10 +1,9 @@
 #include "core/accel/embree_device.hpp"
 
-#include <fmt/core.h>
-
 #include <mutex>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -20,15 +19,15 @@ thread_local std::int64_t thread_bytes = 0;
     throw Error(ErrorCode::unsupported, "this processor is too old for Embree");
   }
   throw Error(ErrorCode::internal,
-              fmt::format("Embree failed with error {}", static_cast<int>(error)));
+              text::format("Embree failed with error {}", static_cast<int>(error)));
 }
 
 [[noreturn]] void fail_to_start(RTCError error) {
   if (error != RTC_ERROR_UNKNOWN) fail(error);
   throw Error(ErrorCode::limit,
-              fmt::format("Embree cannot be started (its error {}). A process can have about 1000"
-                          " prepared scenes with thousands of entities at a time; release some",
-                          static_cast<int>(error)));
+              text::format("Embree cannot be started (its error {}). A process can have about 1000"
+                           " prepared scenes with thousands of entities at a time; release some",
+                           static_cast<int>(error)));
 }
 
 }  // namespace

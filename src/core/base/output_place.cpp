@@ -1,6 +1,5 @@
 #include "core/base/output_place.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <system_error>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -47,8 +47,8 @@ void check_folder(const fs::path& path) {
   const fs::path folder = folder_of(path);
   std::error_code unreachable;
   if (fs::is_directory(folder, unreachable)) return;
-  fail_to_write(path, fmt::format("there is no folder '{}'; make it first, or name another",
-                                  folder.string()));
+  fail_to_write(path, text::format("there is no folder '{}'; make it first, or name another",
+                                   folder.string()));
 }
 
 /// Returns what a file in a folder is like, or one for its owner alone if there is none.
@@ -69,7 +69,7 @@ std::string system_message(int error) {
 }
 
 void fail_to_write(const fs::path& path, const std::string& reason) {
-  throw Error(ErrorCode::io, fmt::format("cannot write '{}': {}", path.string(), reason));
+  throw Error(ErrorCode::io, text::format("cannot write '{}': {}", path.string(), reason));
 }
 
 OutputPlace output_place(const fs::path& path) {

@@ -1,9 +1,8 @@
 #include "core/base/state_file.hpp"
 
-#include <fmt/format.h>
-
 #include "core/base/whole_file.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -77,7 +76,7 @@ std::span<const std::byte> StateReader::next(std::size_t size) {
 }
 
 void StateReader::fail() const {
-  throw Error(ErrorCode::io, fmt::format("'{}' is damaged, or no checkpoint of a picture", name_));
+  throw Error(ErrorCode::io, text::format("'{}' is damaged, or no checkpoint of a picture", name_));
 }
 
 }  // namespace crt::core

@@ -1,7 +1,6 @@
 #include "core/base/whole_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,6 +18,7 @@
 #include "core/base/output_place.hpp"
 #include "crt/error.hpp"
 #include "crt/file.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail_to_read(const fs::path& path, const std::string& reason) {
-  throw Error(ErrorCode::io, fmt::format("cannot read '{}': {}", path.string(), reason));
+  throw Error(ErrorCode::io, text::format("cannot read '{}': {}", path.string(), reason));
 }
 
 /// A Descriptor closes its file when it goes out of scope.
@@ -229,7 +229,7 @@ class TemporaryFile {
     // A file that others may not read is not to be read by them while its replacement is written.
     constexpr mode_t private_at_first = 0600;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-      name_ = place_.path.parent_path() / fmt::format(".crt-{}-{}.part", ::getpid(), attempt);
+      name_ = place_.path.parent_path() / text::format(".crt-{}-{}.part", ::getpid(), attempt);
       Descriptor file(::openat(place_.folder, name_.c_str(),
                                O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC,
                                place_.model ? private_at_first : readable_by_all));
@@ -308,7 +308,7 @@ std::vector<std::byte> read_whole_file(const fs::path& path, std::size_t max_byt
   constexpr std::size_t few_bytes = std::size_t{1} << 26;  // for which memory is not looked at
   const std::uint64_t most =
       size <= few_bytes ? max_bytes : std::min<std::uint64_t>(max_bytes, memory_limit() / 2);
-  if (size > most) fail_to_read(path, fmt::format("it is longer than {} bytes", most));
+  if (size > most) fail_to_read(path, text::format("it is longer than {} bytes", most));
   return read_start(file, size, path);
 }
 

@@ -1,7 +1,5 @@
 #include "core/compile/compile.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "core/compile/unlisted_faces.hpp"
 #include "core/tasks/parallel.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -202,7 +201,7 @@ void Compiler::finish_instances() {
     first_leaf += result_.prototype_of(object).leaves.size();
     if (first_leaf < nothing) continue;
     throw Error(ErrorCode::limit,
-                fmt::format("the instances of the scene have more than {} primitives", nothing),
+                text::format("the instances of the scene have more than {} primitives", nothing),
                 "entities");
   }
 }
@@ -270,7 +269,7 @@ void Compiler::make_faces() {
     count += leaf.face_count;
     if (count + unlisted > most_faces) {
       throw Error(ErrorCode::limit,
-                  fmt::format("the primitives of the scene have more than {} faces", most_faces),
+                  text::format("the primitives of the scene have more than {} faces", most_faces),
                   "entities");
     }
   }

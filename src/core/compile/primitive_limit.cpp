@@ -1,9 +1,8 @@
 #include "core/compile/primitive_limit.hpp"
 
-#include <fmt/core.h>
-
 #include "core/base/memory_limit.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -13,12 +12,12 @@ void PrimitiveLimit::check(const Instancing::Count& count) const {
   const std::uint64_t primitives = count.primitives + count.instances;
   if (primitives > most_numbered) {
     throw Error(ErrorCode::limit,
-                fmt::format("the scene has more than {} primitives", most_numbered), "entities");
+                text::format("the scene has more than {} primitives", most_numbered), "entities");
   }
   if (most_ != 0 && primitives > most_) {
     throw Error(ErrorCode::limit,
-                fmt::format("the scene has {} primitives, more than {} (max_primitives)",
-                            primitives, most_),
+                text::format("the scene has {} primitives, more than {} (max_primitives)",
+                             primitives, most_),
                 "entities");
   }
   if (most_ != 0 || primitives <= few) return;
@@ -27,9 +26,9 @@ void PrimitiveLimit::check(const Instancing::Count& count) const {
   if (of_primitive * count.primitives + bytes_of_instance * count.instances <= limit) return;
   throw Error(
       ErrorCode::limit,
-      fmt::format("the scene has {} primitives, but the memory here may be enough for {} only "
-                  "(see max_primitives)",
-                  primitives, limit / of_primitive),
+      text::format("the scene has {} primitives, but the memory here may be enough for {} only "
+                   "(see max_primitives)",
+                   primitives, limit / of_primitive),
       "entities");
 }
 

@@ -1,14 +1,13 @@
 // All descriptions are checked here but those of primitives, which geometry/ knows.
 #include "crt/validate.hpp"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <cmath>
 #include <numbers>
 #include <string_view>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -21,26 +20,27 @@ constexpr int most_samples = 65536;
 constexpr double pi = std::numbers::pi;
 
 [[noreturn]] void reject(std::string_view field, const std::string& what) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("{} {}", field, what), std::string(field));
+  throw Error(ErrorCode::invalid_argument, text::format("{} {}", field, what), std::string(field));
 }
 
 /// Checks that a number is in [lowest, highest].
 void require_between(std::string_view field, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return;
   if (!std::isfinite(value))
-    reject(field, fmt::format("must be a finite number (it is {})", value));
+    reject(field, text::format("must be a finite number (it is {})", value));
   if (highest == largest_factor || highest == largest_coordinate) {
-    if (value < lowest) reject(field, fmt::format("must be at least {} (it is {})", lowest, value));
-    reject(field, fmt::format("must be at most {} (it is {})", highest, value));
+    if (value < lowest)
+      reject(field, text::format("must be at least {} (it is {})", lowest, value));
+    reject(field, text::format("must be at most {} (it is {})", highest, value));
   }
-  reject(field, fmt::format("must be between {} and {} (it is {})", lowest, highest, value));
+  reject(field, text::format("must be between {} and {} (it is {})", lowest, highest, value));
 }
 
 /// Checks that a number is a power of two in [lowest, highest].
 void require_power_of_two(std::string_view field, int value, int lowest, int highest) {
   require_between(field, value, lowest, highest);
   if (!std::has_single_bit(static_cast<unsigned>(value))) {
-    reject(field, fmt::format("must be a power of 2, such as 16 or 64 (it is {})", value));
+    reject(field, text::format("must be a power of 2, such as 16 or 64 (it is {})", value));
   }
 }
 
@@ -48,9 +48,9 @@ void require_power_of_two(std::string_view field, int value, int lowest, int hig
 void require_positive(std::string_view field, double value, double highest) {
   if (value > 0 && value <= highest) return;
   if (!std::isfinite(value))
-    reject(field, fmt::format("must be a finite number (it is {})", value));
-  if (value <= 0) reject(field, fmt::format("must be greater than 0 (it is {})", value));
-  reject(field, fmt::format("must be at most {} (it is {})", highest, value));
+    reject(field, text::format("must be a finite number (it is {})", value));
+  if (value <= 0) reject(field, text::format("must be greater than 0 (it is {})", value));
+  reject(field, text::format("must be at most {} (it is {})", highest, value));
 }
 
 void require_point(std::string_view field, const Vec3& point) {
@@ -68,7 +68,7 @@ void require_direction(std::string_view field, const Vec3& direction) {
 
 void require_different(const Vec3& from, const Vec3& pointing, std::string_view from_name) {
   if (from == pointing) {
-    reject("pointing", fmt::format("must differ from {}, or there is no direction", from_name));
+    reject("pointing", text::format("must differ from {}, or there is no direction", from_name));
   }
 }
 
@@ -77,11 +77,11 @@ void require_color(std::string_view field, const Color& color, double highest) {
   for (const double channel : {color.r, color.g, color.b}) {
     if (!std::isfinite(channel)) reject(field, "must consist of finite numbers");
     if (channel < 0 || channel > highest) {
-      reject(field, fmt::format("must not have negative or absurd channels (one is {})", channel));
+      reject(field, text::format("must not have negative or absurd channels (one is {})", channel));
     }
   }
   if (!(color.a >= 0 && color.a <= 1))
-    reject(field, fmt::format("must have an alpha between 0 and 1 (it is {})", color.a));
+    reject(field, text::format("must have an alpha between 0 and 1 (it is {})", color.a));
 }
 
 void require_image(const std::shared_ptr<const Image>& image) {
@@ -95,13 +95,13 @@ void require_stops(const std::vector<ColorStop>& stops) {
   if (stops.empty()) return;
   if (stops.size() < 2 || stops.size() > most_color_stops)
     reject("colors",
-           fmt::format("must be between 2 and {} (there are {})", most_color_stops, stops.size()));
+           text::format("must be between 2 and {} (there are {})", most_color_stops, stops.size()));
   double before = 0;
   for (const ColorStop& stop : stops) {
     require_color("colors", stop.color, largest_factor);
     if (!(stop.position >= before && stop.position <= 1))
       reject("colors",
-             fmt::format("must have ascending positions from 0 to 1 (one is {})", stop.position));
+             text::format("must have ascending positions from 0 to 1 (one is {})", stop.position));
     before = stop.position;
   }
 }
@@ -161,7 +161,7 @@ struct PatternCheck {
     if (!inner) return;
     if (depth >= most_nested_patterns)
       reject(field,
-             fmt::format("has more than {} patterns within one another", most_nested_patterns));
+             text::format("has more than {} patterns within one another", most_nested_patterns));
     std::visit(PatternCheck{depth + 1}, inner->pattern);
   }
 
@@ -272,8 +272,8 @@ void validate(const Settings& settings) {
   require_between("height", settings.height, 1, 65536);
   constexpr std::int64_t most_pixels = std::int64_t{1} << 27;
   if (std::int64_t{settings.width} * settings.height > most_pixels) {
-    reject("height", fmt::format("makes a picture of {} x {}: over 134217728 pixels",
-                                 settings.width, settings.height));
+    reject("height", text::format("makes a picture of {} x {}: over 134217728 pixels",
+                                  settings.width, settings.height));
   }
   require_between("gamma", settings.gamma, 0.1, 10);
   require_between("supersampling", settings.supersampling, 1, 64);
@@ -283,14 +283,14 @@ void validate(const Settings& settings) {
   require_power_of_two("min_samples", settings.min_samples, fewest_samples, most_samples);
   require_power_of_two("max_samples", settings.max_samples, fewest_samples, most_samples);
   if (settings.max_samples < settings.min_samples) {
-    reject("max_samples", fmt::format("must not be less than min_samples ({}), but is {}",
-                                      settings.min_samples, settings.max_samples));
+    reject("max_samples", text::format("must not be less than min_samples ({}), but is {}",
+                                       settings.min_samples, settings.max_samples));
   }
   require_between("filter_width", settings.filter_width, 1, 16);
   require_between("recursion_depth", settings.recursion_depth, 0, 256);
   require_between("min_weight", settings.min_weight, 0, 1);
   if (settings.compat != 0 && settings.compat != compat_2015) {
-    reject("compat", fmt::format("must be 0 or {} (it is {})", compat_2015, settings.compat));
+    reject("compat", text::format("must be 0 or {} (it is {})", compat_2015, settings.compat));
   }
 }
 

@@ -1,7 +1,5 @@
 #include "crt/curves.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "core/contours/biarcs.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -21,9 +20,9 @@ void check_point(const CurvePoint& point, const char* name) {
   for (const double number : {point.x, point.y}) {
     if (!(std::abs(number) <= largest)) {
       throw Error(ErrorCode::invalid_argument,
-                  fmt::format("{} must have finite numbers of at most 1e100 in magnitude (it is "
-                              "({}, {}))",
-                              name, point.x, point.y),
+                  text::format("{} must have finite numbers of at most 1e100 in magnitude (it is "
+                               "({}, {}))",
+                               name, point.x, point.y),
                   name);
     }
   }
@@ -38,8 +37,8 @@ double checked_deviation(double deviation, double size, double magnitude) {
   const double least = std::max(least_share * size, by_magnitude);
   if (!(deviation >= least) || !std::isfinite(deviation)) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("deviation must be 0 or at least {} for such a curve (it is {})", least,
-                            deviation),
+                text::format("deviation must be 0 or at least {} for such a curve (it is {})",
+                             least, deviation),
                 "deviation");
   }
   return deviation;

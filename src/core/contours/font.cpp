@@ -1,7 +1,5 @@
 #include "core/contours/font.hpp"
 
-#include <fmt/format.h>
-
 #include <exception>
 #include <utility>
 
@@ -11,6 +9,7 @@
 #include "crt/curves.hpp"
 #include "crt/error.hpp"
 #include "crt/text.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -21,7 +20,7 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
 [[noreturn]] void refuse_font(const std::string& name, const std::string& reason) {
-  throw Error(ErrorCode::io, fmt::format("'{}' {}", name, reason));
+  throw Error(ErrorCode::io, text::format("'{}' {}", name, reason));
 }
 
 }  // namespace
@@ -159,7 +158,7 @@ Glyph FontReader::glyph(std::uint32_t number, double scale, double deviation,
   constexpr FT_Int32 flags = FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP;
   if (functions.load_glyph(face_, number, flags) != 0 ||
       face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) {
-    refuse_font(font_.name(), fmt::format("has a broken glyph (number {})", number));
+    refuse_font(font_.name(), text::format("has a broken glyph (number {})", number));
   }
   GlyphDrawer drawer{.scale = scale, .deviation = deviation, .most_corners = most_corners};
   const FT_Outline_Funcs steps{.move_to = &GlyphDrawer::move,
@@ -171,7 +170,7 @@ Glyph FontReader::glyph(std::uint32_t number, double scale, double deviation,
   const FT_Error failure = functions.decompose(&face_->glyph->outline, &steps, &drawer);
   if (drawer.exception) std::rethrow_exception(drawer.exception);
   if (failure != 0)
-    refuse_font(font_.name(), fmt::format("has a broken glyph (number {})", number));
+    refuse_font(font_.name(), text::format("has a broken glyph (number {})", number));
   drawer.finish_contour();
   return {.contours = std::move(drawer.contours),
           .advance = static_cast<double>(face_->glyph->advance.x)};

@@ -1,9 +1,9 @@
 #include "core/contours/free_type.hpp"
 
 #include <dlfcn.h>
-#include <fmt/format.h>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -15,8 +15,8 @@ FreeType load() {
   const auto refuse = [&] {
     const char* const reason = dlerror();
     throw Error(ErrorCode::unsupported,
-                fmt::format("text needs the library {} (Debian: libfreetype6): {}", file,
-                            reason == nullptr ? "it cannot be loaded" : reason));
+                text::format("text needs the library {} (Debian: libfreetype6): {}", file,
+                             reason == nullptr ? "it cannot be loaded" : reason));
   };
   if (library == nullptr) refuse();
   FreeType functions;

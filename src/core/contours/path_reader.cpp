@@ -1,12 +1,11 @@
 #include "core/contours/path_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
 
-#include "core/mesh_files/text_numbers.hpp"
+#include "core/base/text_numbers.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -33,10 +32,10 @@ void PathReader::refuse_at(std::size_t place, const std::string& wanted) const {
   if (place < text_.size()) {
     const auto byte = static_cast<unsigned char>(text_[place]);
     const bool is_shown = byte >= ' ' && byte <= '~';
-    found = is_shown ? fmt::format("'{}'", text_[place]) : fmt::format("the byte {:#04x}", byte);
+    found = is_shown ? text::format("'{}'", text_[place]) : text::format("the byte 0x{:02x}", byte);
   }
   throw Error(ErrorCode::invalid_argument,
-              fmt::format("path has {} at character {}, where {}", found, characters, wanted),
+              text::format("path has {} at character {}, where {}", found, characters, wanted),
               "path");
 }
 

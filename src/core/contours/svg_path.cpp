@@ -1,7 +1,5 @@
 #include "crt/svg_path.hpp"
 
-#include <fmt/format.h>
-
 #include <optional>
 
 #include "core/contours/append.hpp"
@@ -9,6 +7,7 @@
 #include "core/contours/path_reader.hpp"
 #include "crt/curves.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -99,9 +98,9 @@ class PathDrawer {
     constexpr std::size_t most_corners = std::size_t{1} << 20;
     if (corners_ + contour_.size() > most_corners) {
       throw Error(ErrorCode::limit,
-                  fmt::format("path has over {} corners at character {}: draw it as several, or "
-                              "with a larger deviation",
-                              most_corners, reader_.place() + 1),
+                  text::format("path has over {} corners at character {}: draw it as several, or "
+                               "with a larger deviation",
+                               most_corners, reader_.place() + 1),
                   "path");
     }
   }

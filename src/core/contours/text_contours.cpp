@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "core/contours/nonzero.hpp"
 #include "crt/error.hpp"
 #include "crt/text.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -21,7 +21,7 @@ constexpr std::size_t most_corners = std::size_t{1} << 20;
 
 [[noreturn]] void refuse_layout(const char* field, const std::string& range, double value) {
   throw Error(ErrorCode::invalid_argument,
-              fmt::format("{} must be {} (it is {})", field, range, value), field);
+              text::format("{} must be {} (it is {})", field, range, value), field);
 }
 
 void check(const TextLayout& layout) {
@@ -56,7 +56,7 @@ char32_t next_letter(std::string_view text, std::size_t& place) {
   const bool is_surrogate = letter >= 0xd800 && letter <= 0xdfff;
   if (!is_right || letter < least[following] || letter > 0x10ffff || is_surrogate) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("text must be UTF-8, which it is not at byte {}", begin), "text");
+                text::format("text must be UTF-8, which it is not at byte {}", begin), "text");
   }
   return letter;
 }
@@ -67,7 +67,7 @@ std::vector<std::u32string> lines_of(std::string_view text) {
   for (std::size_t place = 0; place < text.size();) {
     const char32_t letter = next_letter(text, place);
     if (++letters > most_letters) {
-      throw Error(ErrorCode::limit, fmt::format("text must have at most {} letters", most_letters),
+      throw Error(ErrorCode::limit, text::format("text must have at most {} letters", most_letters),
                   "text");
     }
     if (letter == U'\n') {

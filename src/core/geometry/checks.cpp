@@ -1,11 +1,10 @@
 #include "core/geometry/checks.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 namespace {
@@ -13,17 +12,18 @@ namespace {
 constexpr double largest_length = 1e100;
 
 [[noreturn]] void reject_value(const char* argument, const char* rule, const Vec3& value) {
-  reject(argument, fmt::format("{} (it is ({}, {}, {}))", rule, value.x, value.y, value.z).c_str());
+  reject(argument,
+         text::format("{} (it is ({}, {}, {}))", rule, value.x, value.y, value.z).c_str());
 }
 
 [[noreturn]] void reject_value(const char* argument, const char* rule, double value) {
-  reject(argument, fmt::format("{} (it is {})", rule, value).c_str());
+  reject(argument, text::format("{} (it is {})", rule, value).c_str());
 }
 
 }  // namespace
 
 void reject(const char* argument, const char* rule) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("{} {}", argument, rule), argument);
+  throw Error(ErrorCode::invalid_argument, text::format("{} {}", argument, rule), argument);
 }
 
 void check_coordinates(const char* argument, const Vec3& value) {

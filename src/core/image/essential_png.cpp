@@ -1,26 +1,20 @@
 // A PNG file is a list of chunks with checksums.
 //
 // Source: W3C, Portable Network Graphics, 2nd edition, chapter 5.
-#include <fmt/format.h>
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
 
 #include "core/image/byte_order.hpp"
+#include "core/image/checksum.hpp"
 #include "core/image/essential_bytes.hpp"
 #include "core/image/image_limits.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
 namespace {
-
-uLong checksum(FileView bytes) {
-  return crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()),
-                 bytes.size());
-}
 
 bool is_letter(std::byte byte) {
   const auto lower = std::to_integer<unsigned>(byte) | 0x20u;
@@ -58,7 +52,7 @@ FileBytes essential_png(FileView content, const SizeLimit& limit) {
     }
     const std::string name(reinterpret_cast<const char*>(summed.data()), name_size);
     if (checksum(summed) != big_endian(chunk.last(4))) {
-      throw RefusedFile(fmt::format("it is damaged: the checksum of its chunk {} is wrong", name));
+      throw RefusedFile(text::format("it is damaged: the checksum of its chunk {} is wrong", name));
     }
     const FileView data = summed.subspan(name_size);
     if (name == "IHDR" && data.size() >= 8) {
@@ -67,7 +61,7 @@ FileBytes essential_png(FileView content, const SizeLimit& limit) {
     if (is_needed(name)) {
       result.insert(result.end(), chunk.begin(), chunk.end());
     } else if (is_critical(name)) {
-      throw RefusedFile(fmt::format("its chunk {} is not known", name));
+      throw RefusedFile(text::format("its chunk {} is not known", name));
     }
     if (name == "IEND") return result;
     rest = rest.subspan(chunk.size());

@@ -1,13 +1,12 @@
 #include "core/image/file_texts.hpp"
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <string_view>
 
 #include "crt/version.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -28,32 +27,32 @@ void add(FileTexts& texts, std::string_view name, std::string value) {
 /// Adds how pixels were sampled, as far as that differs from the defaults.
 void add_sampling(FileTexts& texts, const Settings& settings) {
   if (settings.target_error > 0)
-    add(texts, "crt:targeterror", fmt::format("{}", settings.target_error));
+    add(texts, "crt:targeterror", text::format("{}", settings.target_error));
   if (settings.time_budget > 0)
-    add(texts, "crt:timebudget", fmt::format("{}", settings.time_budget));
+    add(texts, "crt:timebudget", text::format("{}", settings.time_budget));
   if (settings.target_error > 0 || settings.time_budget > 0) {
-    add(texts, "crt:minsamples", fmt::format("{}", settings.min_samples));
-    add(texts, "crt:maxsamples", fmt::format("{}", settings.max_samples));
+    add(texts, "crt:minsamples", text::format("{}", settings.min_samples));
+    add(texts, "crt:maxsamples", text::format("{}", settings.max_samples));
   }
   if (settings.filter == PixelFilter::box) return;
   add(texts, "crt:filter", "blackmanharris");
-  add(texts, "crt:filterwidth", fmt::format("{}", settings.filter_width));
+  add(texts, "crt:filterwidth", text::format("{}", settings.filter_width));
 }
 
 void add_settings(FileTexts& texts, const Settings& settings) {
-  add(texts, "crt:gamma", fmt::format("{}", settings.gamma));
-  add(texts, "crt:supersampling", fmt::format("{}", settings.supersampling));
-  add(texts, "crt:dofsamples", fmt::format("{}", settings.dof_samples));
+  add(texts, "crt:gamma", text::format("{}", settings.gamma));
+  add(texts, "crt:supersampling", text::format("{}", settings.supersampling));
+  add(texts, "crt:dofsamples", text::format("{}", settings.dof_samples));
   add_sampling(texts, settings);
-  add(texts, "crt:recursiondepth", fmt::format("{}", settings.recursion_depth));
-  add(texts, "crt:minweight", fmt::format("{}", settings.min_weight));
+  add(texts, "crt:recursiondepth", text::format("{}", settings.recursion_depth));
+  add(texts, "crt:minweight", text::format("{}", settings.min_weight));
   add(texts, "crt:falloffmodel", settings.falloff_model == FalloffModel::path ? "path" : "light");
   if (settings.ambient_model == AmbientModel::surface) add(texts, "crt:ambientmodel", "surface");
   if (!settings.head_light) add(texts, "crt:headlight", "false");
   add(texts, "crt:showclip", settings.show_clip ? "true" : "false");
-  add(texts, "crt:seed", fmt::format("{}", settings.seed));
+  add(texts, "crt:seed", text::format("{}", settings.seed));
   if (settings.precision == Precision::exact) add(texts, "crt:precision", "exact");
-  if (settings.compat != 0) add(texts, "crt:compat", fmt::format("{}", settings.compat));
+  if (settings.compat != 0) add(texts, "crt:compat", text::format("{}", settings.compat));
 }
 
 /// JPEG holds texts in segments of 64 KiB, several texts in one, and some with up to six bytes for
@@ -73,13 +72,17 @@ std::string shortened(std::string text) {
 void add_accuracy(FileTexts& texts, const RenderStats& stats) {
   if (stats.passes == 0) return;
   const auto add_numbers = [&](std::string_view name, std::initializer_list<double> numbers) {
-    add(texts, name, fmt::format("{:.6g}", fmt::join(numbers, " ")));
+    std::string list;
+    for (const double number : numbers) {
+      list += text::format("{}{:.6g}", list.empty() ? "" : " ", number);
+    }
+    add(texts, name, list);
   };
-  add(texts, "crt:passes", fmt::format("{}", stats.passes));
+  add(texts, "crt:passes", text::format("{}", stats.passes));
   add_numbers("crt:samples", {static_cast<double>(stats.samples_min), stats.samples_mean,
                               static_cast<double>(stats.samples_max)});
   add_numbers("crt:halfwidth", {stats.half_width_rms, stats.half_width_95, stats.half_width_max});
-  add(texts, "crt:unresolvedpixels", fmt::format("{}", stats.pixels_unresolved));
+  add(texts, "crt:unresolvedpixels", text::format("{}", stats.pixels_unresolved));
   add_numbers("crt:unseenshare", {stats.unseen_share});
   add_numbers("crt:cutoff", {stats.cutoff_mean, stats.cutoff_max});
 }
@@ -87,7 +90,7 @@ void add_accuracy(FileTexts& texts, const RenderStats& stats) {
 /// Adds the counts that do not depend on how the work was done.
 void add_counts(FileTexts& texts, const RenderStats& stats) {
   const auto add_count = [&](std::string_view name, std::uint64_t count) {
-    if (count > 0) add(texts, name, fmt::format("{}", count));
+    if (count > 0) add(texts, name, text::format("{}", count));
   };
   add_count("crt:camerarays", stats.camera_rays);
   add_count("crt:shadowrays", stats.shadow_rays);
@@ -109,7 +112,8 @@ FileTexts file_texts(const Image& image, bool reproducible) {
   add_accuracy(texts, image.stats());
   add_counts(texts, image.stats());
   const double seconds = image.stats().prepare_seconds + image.stats().trace_seconds;
-  if (!reproducible && seconds > 0) add(texts, "crt:renderseconds", fmt::format("{:.3f}", seconds));
+  if (!reproducible && seconds > 0)
+    add(texts, "crt:renderseconds", text::format("{:.3f}", seconds));
   return texts;
 }
 
@@ -122,7 +126,7 @@ FileTexts gathered_texts(const FileTexts& texts) {
     } else if (name == title_name || name == notes_name) {
       description += value + "\n";
     } else {
-      description += fmt::format("{}: {}\n", name, value);
+      description += text::format("{}: {}\n", name, value);
     }
   }
   add(gathered, notes_name, shortened(std::move(description)));

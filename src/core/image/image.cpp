@@ -1,13 +1,12 @@
 #include "crt/image.hpp"
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <new>
 
 #include "core/image/pixel_conversion.hpp"
 #include "crt/error.hpp"
 #include "crt/image_limits.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -21,16 +20,16 @@ std::size_t first_value(int x, int y, int width) {
 /// Throws an Error, as an allocation that fails is an Error like any other.
 [[noreturn]] void fail_without_memory(int width, int height) {
   throw Error(ErrorCode::out_of_memory,
-              fmt::format("no memory for a picture of {} x {} pixels", width, height));
+              text::format("no memory for a picture of {} x {} pixels", width, height));
 }
 
 }  // namespace
 
 std::string NotFiniteValues::message() const {
-  return fmt::format(
+  return text::format(
       "{} has {} pixel{} with values that are not finite (NaN, infinity), {} ({}, {}) from the "
       "top left: they count as 0",
-      file.empty() ? "an image" : fmt::format("'{}'", file), pixels, pixels == 1 ? "" : "s",
+      file.empty() ? "an image" : text::format("'{}'", file), pixels, pixels == 1 ? "" : "s",
       pixels == 1 ? "at" : "the first at", x, y);
 }
 
@@ -42,8 +41,8 @@ Image::Image(int width, int height) : width_(width), height_(height) {
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (count > most_image_pixels) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("a picture of {} x {} pixels is larger than the {} that are possible",
-                            width, height, most_image_pixels),
+                text::format("a picture of {} x {} pixels is larger than the {} that are possible",
+                             width, height, most_image_pixels),
                 "width");
   }
   try {
@@ -64,8 +63,8 @@ Image Image::from_rgba8(int width, int height, std::span<const std::uint8_t> rgb
       (rgba.size() - row_bytes) / stride < more_rows ||
       rgba.size() != more_rows * stride + row_bytes) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} bytes in rows of {} are not a picture of {} x {} pixels",
-                            rgba.size(), stride, width, height),
+                text::format("{} bytes in rows of {} are not a picture of {} x {} pixels",
+                             rgba.size(), stride, width, height),
                 "rgba");
   }
   constexpr float full = 255;

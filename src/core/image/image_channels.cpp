@@ -1,6 +1,4 @@
 // An image may have channels beside its colours.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -8,6 +6,7 @@
 
 #include "crt/error.hpp"
 #include "crt/image.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -23,7 +22,7 @@ bool is_printable(char c) {
 }
 
 [[noreturn]] void reject(std::string_view name, const std::string& reason) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("the channel '{}' {}", name, reason),
+  throw Error(ErrorCode::invalid_argument, text::format("the channel '{}' {}", name, reason),
               "channels");
 }
 
@@ -65,13 +64,14 @@ void Image::set_channels(std::vector<ImageChannel> channels) {
     const bool fine = !name.empty() && name.size() <= longest_name &&
                       std::all_of(name.begin(), name.end(), is_printable);
     if (!fine)
-      reject(name, fmt::format("needs a name of 1 to {} printable ASCII characters", longest_name));
+      reject(name,
+             text::format("needs a name of 1 to {} printable ASCII characters", longest_name));
     if (!taken.insert(name).second) reject(name, "is there already");
     const std::size_t count =
         std::visit([](const auto& values) { return values.size(); }, channel.values);
     if (count != pixel_count) {
       reject(name,
-             fmt::format("has {} numbers, but the picture has {} pixels", count, pixel_count));
+             text::format("has {} numbers, but the picture has {} pixels", count, pixel_count));
     }
   }
   channels_ = std::move(channels);

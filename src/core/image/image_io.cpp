@@ -1,6 +1,4 @@
 // Image::read, decode and write are on this side of the border to OpenImageIO.
-#include <fmt/format.h>
-
 #include <exception>
 #include <new>
 #include <optional>
@@ -19,6 +17,7 @@
 #include "crt/error.hpp"
 #include "crt/file.hpp"
 #include "crt/image.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -28,7 +27,7 @@ using namespace core;
 
 [[noreturn]] void fail(ErrorCode code, const char* action, const std::string& name,
                        const std::string& reason) {
-  throw Error(code, fmt::format("cannot {} '{}': {}", action, name, reason));
+  throw Error(code, text::format("cannot {} '{}': {}", action, name, reason));
 }
 
 /// A Failure collects what the module says when it fails.
@@ -213,7 +212,7 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format,
 void check_channels(const Image& image, const WritableFormat& format, const std::string& name) {
   if (image.channels().empty() || format.channels) return;
   fail(ErrorCode::unsupported, "write", name,
-       fmt::format(
+       text::format(
            "a file of this format holds colours alone, but the picture has the channel '{}'{}; "
            "the name must end in {}",
            image.channels().front().name, image.channels().size() == 1 ? "" : " and others",
@@ -287,13 +286,13 @@ void check_picture_name(const std::filesystem::path& path, bool with_channels) {
   const std::string name = path.string();
   if (format_for(path.filename().string(), name).channels || !with_channels) return;
   fail(ErrorCode::unsupported, "write", name,
-       fmt::format("a file of this format holds colours alone and no channels beside them; the "
-                   "name must end in {}",
-                   endings_with_channels()));
+       text::format("a file of this format holds colours alone and no channels beside them; the "
+                    "name must end in {}",
+                    endings_with_channels()));
 }
 
 std::vector<std::byte> Image::encode(std::string_view format, const WriteOptions& options) const {
-  const std::string name = fmt::format("picture.{}", format);
+  const std::string name = text::format("picture.{}", format);
   try {
     return file_bytes(*this, name, options, name);
   } catch (const std::bad_alloc&) {

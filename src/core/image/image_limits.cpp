@@ -1,11 +1,10 @@
 #include "core/image/image_limits.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/base/memory_limit.hpp"
 #include "core/image/essential_bytes.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -29,7 +28,7 @@ std::size_t SizeLimit::most_file_bytes() const {
 
 void SizeLimit::check(std::uint64_t width, std::uint64_t height) const {
   if (allows(width, height)) return;
-  const std::string message = fmt::format(
+  const std::string message = text::format(
       "its header says {} x {} pixels; the limit is {} altogether", width, height, most_pixels_);
   if (width > most_image_pixels / height) throw RefusedFile(message);
   throw TooLarge(message);

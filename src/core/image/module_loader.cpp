@@ -1,7 +1,6 @@
 #include "core/image/module_loader.hpp"
 
 #include <dlfcn.h>
-#include <fmt/format.h>
 #include <link.h>
 
 #include <cstddef>
@@ -11,6 +10,7 @@
 #include <system_error>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -66,7 +66,7 @@ Binary containing_binary() {
 /// Returns the module in this file, or null with the reason added to `reasons`.
 const ImageFiles* try_load(const fs::path& file, std::string& reasons) {
   const auto give_reason = [&](const std::string& reason) {
-    reasons += fmt::format("\n  {}: {}", file.string(), reason);
+    reasons += text::format("\n  {}: {}", file.string(), reason);
   };
   std::error_code error;
   if (!fs::exists(file, error)) {
@@ -116,7 +116,7 @@ const ImageFiles& load_image_files(std::span<const fs::path> directories) {
   }
   throw Error(
       ErrorCode::unsupported,
-      fmt::format(
+      text::format(
           "image files cannot be read or written: the module {} was not found; looked for:{}",
           image_files_module_name, reasons));
 }

@@ -2,15 +2,15 @@
 // matter.
 #include "core/image/png_writer.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <limits>
-#include <new>
 #include <string>
 #include <string_view>
+
+#include "core/image/checksum.hpp"
+#include "core/image/packer.hpp"
 
 namespace crt::core {
 
@@ -28,9 +28,7 @@ void append_chunk(Bytes& file, std::string_view name, std::span<const std::uint8
   const std::size_t summed_from = file.size();
   file.insert(file.end(), name.begin(), name.end());
   file.insert(file.end(), content.begin(), content.end());
-  const uLong sum =
-      crc32_z(crc32_z(0, nullptr, 0), file.data() + summed_from, file.size() - summed_from);
-  append_number(file, static_cast<std::uint32_t>(sum));
+  append_number(file, checksum(std::as_bytes(std::span(file).subspan(summed_from))));
 }
 
 void append_header(Bytes& file, const BytePicture& picture) {
@@ -138,61 +136,18 @@ class RowFilter {
   Bytes tried_;
 };
 
-/// Packs bytes into IDAT chunks.
-class PackedChunks {
- public:
-  explicit PackedChunks(Bytes& file) : file_(file) {
-    if (deflateInit(&stream_, Z_DEFAULT_COMPRESSION) != Z_OK) throw std::bad_alloc();
-    make_room();
-  }
-  ~PackedChunks() { deflateEnd(&stream_); }
-  PackedChunks(const PackedChunks&) = delete;
-  PackedChunks& operator=(const PackedChunks&) = delete;
-
-  void add(std::span<const std::uint8_t> bytes) { pack(bytes, Z_NO_FLUSH); }
-  void finish() {
-    pack({}, Z_FINISH);
-    write_chunk();
-  }
-
- private:
-  void pack(std::span<const std::uint8_t> bytes, int flush) {
-    stream_.next_in = const_cast<Bytef*>(bytes.data());  // zlib only reads it
-    stream_.avail_in = static_cast<uInt>(bytes.size());
-    int status = Z_OK;
-    do {
-      if (stream_.avail_out == 0) write_chunk();
-      status = deflate(&stream_, flush);
-    } while (stream_.avail_in > 0 || (flush == Z_FINISH && status != Z_STREAM_END));
-  }
-
-  void write_chunk() {
-    append_chunk(file_, "IDAT", std::span(room_).first(room_.size() - stream_.avail_out));
-    make_room();
-  }
-
-  void make_room() {
-    stream_.next_out = room_.data();
-    stream_.avail_out = static_cast<uInt>(room_.size());
-  }
-
-  Bytes& file_;
-  z_stream stream_{};
-  Bytes room_ = Bytes(std::size_t{1} << 16);
-};
-
 void append_pixels(Bytes& file, const BytePicture& picture) {
   const auto pixel_bytes = static_cast<std::size_t>(picture.channels);
   const std::size_t row_bytes = static_cast<std::size_t>(picture.width) * pixel_bytes;
   RowFilter filter(row_bytes, pixel_bytes);
-  PackedChunks chunks(file);
+  Packer packer([&](std::span<const std::uint8_t> packed) { append_chunk(file, "IDAT", packed); });
   std::span<const std::uint8_t> above;
   for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height); ++y) {
     const std::span<const std::uint8_t> row = picture.bytes.subspan(y * row_bytes, row_bytes);
-    chunks.add(filter.filtered(row, above));
+    packer.add(filter.filtered(row, above));
     above = row;
   }
-  chunks.finish();
+  packer.finish();
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "crt/transform.hpp"
 
-#include <fmt/core.h>
 #include <crt/elementary.hpp>
 
 #include <cmath>
 #include <numbers>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 namespace {
@@ -16,12 +16,12 @@ constexpr double smallest_factor = 1e-100;
 
 [[noreturn]] void fail(const char* argument, const char* rule, const Vec3& value) {
   throw Error(ErrorCode::invalid_argument,
-              fmt::format("{} {} (it is ({}, {}, {}))", argument, rule, value.x, value.y, value.z),
+              text::format("{} {} (it is ({}, {}, {}))", argument, rule, value.x, value.y, value.z),
               argument);
 }
 
 [[noreturn]] void fail(const char* argument, const char* rule, double value) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("{} {} (it is {})", argument, rule, value),
+  throw Error(ErrorCode::invalid_argument, text::format("{} {} (it is {})", argument, rule, value),
               argument);
 }
 

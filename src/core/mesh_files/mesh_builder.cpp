@@ -1,7 +1,5 @@
 #include "core/mesh_files/mesh_builder.hpp"
 
-#include <fmt/format.h>
-
 #include <limits>
 #include <utility>
 
@@ -9,6 +7,7 @@
 #include "core/mesh_files/refused_mesh.hpp"
 #include "crt/error.hpp"
 #include "crt/image_limits.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -41,14 +40,14 @@ void MeshBuilder::add_position(const Vec3& position) {
 
 std::vector<std::byte> MeshBuilder::open(const std::string& name) const {
   if (open_) return open_(name);
-  throw Error(ErrorCode::io, fmt::format("there is no file '{}'", name));
+  throw Error(ErrorCode::io, text::format("there is no file '{}'", name));
 }
 
 std::shared_ptr<const Image> MeshBuilder::picture(const std::string& name) {
   if (open_picture_) return open_picture_(name);
   if (!pixels_left_) pixels_left_ = affordable_image_pixels();
   if (*pixels_left_ == 0)
-    throw Error(ErrorCode::limit, fmt::format("there is no memory for the picture '{}'", name));
+    throw Error(ErrorCode::limit, text::format("there is no memory for the picture '{}'", name));
   auto picture = std::make_shared<const Image>(decode_image(open(name), name, *pixels_left_));
   *pixels_left_ -= picture->pixels().size() / 4;
   return picture;

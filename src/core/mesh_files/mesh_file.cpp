@@ -1,18 +1,15 @@
 #include "crt/mesh_file.hpp"
 
-#include <fmt/format.h>
-
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "core/base/whole_file.hpp"
-#include "core/geometry/mesh/repair.hpp"
 #include "core/mesh_files/mesh_builder.hpp"
 #include "core/mesh_files/mesh_format.hpp"
 #include "core/mesh_files/readers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -61,7 +58,7 @@ OpenMeshPart opener_in(const std::filesystem::path& directory) {
     const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
     if (path.empty() || path.has_root_path() || *path.begin() == "..") {
       throw Error(ErrorCode::io,
-                  fmt::format("'{}' lies outside the directory of the mesh file", name));
+                  text::format("'{}' lies outside the directory of the mesh file", name));
     }
     return read_whole_file(directory / path, most_bytes);
   };
@@ -76,7 +73,7 @@ MeshFile decode_mesh_file(std::span<const std::byte> content, const std::string&
   try {
     return decode(text, name, format, open, open_picture);
   } catch (const RefusedMesh& refusal) {
-    throw Error(ErrorCode::io, fmt::format("cannot read '{}': {}", name, refusal.what()));
+    throw Error(ErrorCode::io, text::format("cannot read '{}': {}", name, refusal.what()));
   }
 }
 
@@ -84,29 +81,6 @@ MeshFile read_mesh_file(const std::filesystem::path& path, const OpenMeshPart& o
                         const OpenMeshPicture& open_picture) {
   return decode_mesh_file(read_whole_file(path, most_bytes), path.string(), {},
                           open ? open : opener_in(path.parent_path()), open_picture);
-}
-
-Entity load_mesh(const MeshFile& file, const std::string& name, const MeshOptions& options) {
-  try {
-    const GivenMesh given{file.positions, file.triangles, file.attributes};
-    MeshReport report{.name = name, .warnings = file.warnings};
-    return Mesh{.triangles = make_mesh_triangles(given, options, options.fill, std::move(report))};
-  } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("cannot make a mesh of '{}': {}", name, error.what()),
-                error.argument());
-  }
-}
-
-Entity load_mesh(const std::filesystem::path& path, std::optional<double> smooth,
-                 const MeshOptions& options) {
-  MeshFile file = read_mesh_file(path);
-  file.attributes.smooth = smooth;
-  return load_mesh(file, path.string(), options);
-}
-
-Entity load_mesh(std::span<const std::byte> content, const std::string& name,
-                 const MeshOptions& options) {
-  return load_mesh(decode_mesh_file(content, name), name, options);
 }
 
 }  // namespace crt

@@ -1,14 +1,13 @@
 #include "core/mesh_files/model_part.hpp"
 
-#include <fmt/format.h>
-
 #include <string_view>
 
+#include "core/base/text_numbers.hpp"
 #include "core/math/vector.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "core/mesh_files/text_cursor.hpp"
-#include "core/mesh_files/text_numbers.hpp"
 #include "core/mesh_files/xml_reader.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -21,7 +20,7 @@ constexpr std::string_view production_space =
 std::string_view needed(const XmlElement& element, std::string_view attribute) {
   const XmlAttribute* const found = element.find(attribute);
   if (found == nullptr)
-    throw RefusedMesh(fmt::format("<{}> has no attribute '{}'", element.name.local, attribute));
+    throw RefusedMesh(text::format("<{}> has no attribute '{}'", element.name.local, attribute));
   return found->value;
 }
 
@@ -30,7 +29,7 @@ double coordinate(const XmlElement& element, std::string_view attribute) {
   const std::optional<double> value = number_of(text);
   const char* const fault = value ? coordinate_fault(*value) : "is no number";
   if (fault != nullptr)
-    throw RefusedMesh(fmt::format("the coordinate {} {} {}", attribute, in_quotes(text), fault));
+    throw RefusedMesh(text::format("the coordinate {} {} {}", attribute, in_quotes(text), fault));
   return *value;
 }
 
@@ -38,8 +37,8 @@ std::int64_t id(const XmlElement& element, std::string_view attribute) {
   const std::string_view text = needed(element, attribute);
   const std::optional<std::int64_t> value = integer_of(text);
   if (!value || *value < 1) {
-    throw RefusedMesh(fmt::format("{} of <{}> is {}; it should be a whole number from 1", attribute,
-                                  element.name.local, in_quotes(text)));
+    throw RefusedMesh(text::format("{} of <{}> is {}; it should be a whole number from 1",
+                                   attribute, element.name.local, in_quotes(text)));
   }
   return *value;
 }
@@ -48,9 +47,9 @@ std::uint32_t corner(const XmlElement& element, std::string_view attribute, std:
   const std::string_view text = needed(element, attribute);
   const std::optional<std::int64_t> value = integer_of(text);
   if (!value || *value < 0 || *value >= static_cast<std::int64_t>(vertices)) {
-    throw RefusedMesh(fmt::format("{} of <triangle> is {}; the object has vertices from 0 to {}",
-                                  attribute, in_quotes(text),
-                                  static_cast<std::int64_t>(vertices) - 1));
+    throw RefusedMesh(text::format("{} of <triangle> is {}; the object has vertices from 0 to {}",
+                                   attribute, in_quotes(text),
+                                   static_cast<std::int64_t>(vertices) - 1));
   }
   return static_cast<std::uint32_t>(*value);
 }
@@ -64,7 +63,7 @@ ModelTransform transform_of(std::string_view text) {
       const std::optional<double> value = number_of(word);
       if (!value || coordinate_fault(*value) != nullptr) {
         throw RefusedMesh(
-            fmt::format("a transform has {}; it should be 12 numbers", in_quotes(word)));
+            text::format("a transform has {}; it should be 12 numbers", in_quotes(word)));
       }
       row[axis] = *value;
     }
@@ -110,7 +109,7 @@ class PartBuilder {
     } else if (name == "object") {
       const std::int64_t number = id(element, "id");
       const auto [place, is_new] = part_.objects.try_emplace(number);
-      if (!is_new) throw RefusedMesh(fmt::format("there are two objects with the id {}", number));
+      if (!is_new) throw RefusedMesh(text::format("there are two objects with the id {}", number));
       object_ = &place->second;
     } else if (name == "item") {
       part_.build.push_back(placed_object(element));
@@ -122,7 +121,7 @@ class PartBuilder {
  private:
   ModelObject& object(const XmlElement& element) {
     if (object_ == nullptr)
-      throw RefusedMesh(fmt::format("<{}> stands outside of an <object>", element.name.local));
+      throw RefusedMesh(text::format("<{}> stands outside of an <object>", element.name.local));
     return *object_;
   }
 

@@ -1,15 +1,14 @@
 #include "core/mesh_files/mtl.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
+#include "core/base/text_numbers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "core/mesh_files/text_cursor.hpp"
-#include "core/mesh_files/text_numbers.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -38,8 +37,8 @@ double number_within(TextCursor& cursor, std::string_view word, double least, do
   const std::string_view text = cursor.word_of_line();
   const std::optional<double> value = number_of(text);
   if (!value || !(*value >= least && *value <= most)) {
-    refuse_line(cursor.line(), fmt::format("{} has {}; it should be a number from {} to {}",
-                                           in_quotes(word), in_quotes(text), least, most));
+    refuse_line(cursor.line(), text::format("{} has {}; it should be a number from {} to {}",
+                                            in_quotes(word), in_quotes(text), least, most));
   }
   return *value;
 }
@@ -128,7 +127,7 @@ void MtlLibraries::add_libraries(std::string_view names, std::size_t line) {
   if (name.empty() || std::find(libraries_.begin(), libraries_.end(), name) != libraries_.end())
     return;
   if (libraries_.size() == most_libraries)
-    refuse_line(line, fmt::format("it names more than {} material libraries", most_libraries));
+    refuse_line(line, text::format("it names more than {} material libraries", most_libraries));
   libraries_.push_back(name);
 }
 
@@ -136,7 +135,7 @@ std::uint32_t MtlLibraries::number_of(std::string_view name, std::size_t line) {
   const auto found = numbers_.find(name);
   if (found != numbers_.end()) return found->second;
   if (numbers_.size() == most_materials)
-    refuse_line(line, fmt::format("it names more than {} materials", most_materials));
+    refuse_line(line, text::format("it names more than {} materials", most_materials));
   const auto number = static_cast<std::uint32_t>(numbers_.size());
   return numbers_.emplace(name, number).first->second;
 }
@@ -160,7 +159,7 @@ bool MtlLibraries::read_libraries(std::string_view names) {
     try {
       read(*text);
     } catch (const RefusedMesh& refusal) {
-      throw RefusedMesh(fmt::format("in its library {}, {}", in_quotes(name), refusal.what()));
+      throw RefusedMesh(text::format("in its library {}, {}", in_quotes(name), refusal.what()));
     }
     return true;
   };
@@ -176,7 +175,7 @@ bool MtlLibraries::read_libraries(std::string_view names) {
     is_any_missing = !is_read;
   }
   if (is_any_missing)
-    mesh_.warn(fmt::format("there is no material library {} to be read", in_quotes(names)));
+    mesh_.warn(text::format("there is no material library {} to be read", in_quotes(names)));
   return is_any_read;
 }
 
@@ -208,7 +207,7 @@ std::shared_ptr<const Image> MtlLibraries::picture(const std::string& name) {
   const auto found = pictures_.find(path);
   if (found != pictures_.end()) return found->second;
   if (pictures_.size() == most_pictures)
-    throw RefusedMesh(fmt::format("its materials have more than {} pictures", most_pictures));
+    throw RefusedMesh(text::format("its materials have more than {} pictures", most_pictures));
   std::shared_ptr<const Image>& picture = pictures_[path];
   try {
     picture = mesh_.picture(name);
@@ -250,7 +249,7 @@ void MtlLibraries::finish() {
     if (found != definitions_.end()) {
       materials[number] = made(found->second);
     } else if (!name.empty()) {
-      mesh_.warn(fmt::format("its libraries have no material {}", in_quotes(name)));
+      mesh_.warn(text::format("its libraries have no material {}", in_quotes(name)));
     }
   }
   mesh_.set_materials(std::move(materials));

@@ -1,8 +1,6 @@
 // Reads OBJ files: Wavefront, Advanced Visualizer manual, appendix B1 (object files).
 #include "core/mesh_files/obj.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,11 +8,12 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/text_numbers.hpp"
 #include "core/mesh_files/mtl.hpp"
 #include "core/mesh_files/readers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "core/mesh_files/text_cursor.hpp"
-#include "core/mesh_files/text_numbers.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -37,18 +36,19 @@ std::uint32_t place_of(std::string_view number, const Counted& kind, std::string
   const std::optional<std::int64_t> index = integer_of(number);
   const bool is_clean = number.find_first_not_of("0123456789+-") == std::string_view::npos;
   if (!index || !is_clean) {
-    refuse_line(cursor.line(),
-                fmt::format("a corner is {}; it should be the number of a vertex, as in 7 or 7/1/3",
-                            in_quotes(corner)));
+    refuse_line(
+        cursor.line(),
+        text::format("a corner is {}; it should be the number of a vertex, as in 7 or 7/1/3",
+                     in_quotes(corner)));
   }
   if (*index == 0) {
     refuse_line(cursor.line(),
-                fmt::format("there is no {} 0: they count from 1, or -1 back", kind.name));
+                text::format("there is no {} 0: they count from 1, or -1 back", kind.name));
   }
   const auto known = static_cast<std::int64_t>(kind.count);
   if (*index > known || *index < -known) {
-    refuse_line(cursor.line(), fmt::format("there is no {} {}: {} {} before this line", kind.name,
-                                           *index, known, known == 1 ? "is" : "are"));
+    refuse_line(cursor.line(), text::format("there is no {} {}: {} {} before this line", kind.name,
+                                            *index, known, known == 1 ? "is" : "are"));
   }
   return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : known + *index);
 }
@@ -127,8 +127,8 @@ void ObjReader::read_face() {
        corner = cursor_.word_of_line())
     read_corner(corner);
   if (corners_.size() < 3) {
-    refuse_line(line, fmt::format("a face needs at least three corners, and here {} {}",
-                                  corners_.size() == 1 ? "is" : "are", corners_.size()));
+    refuse_line(line, text::format("a face needs at least three corners, and here {} {}",
+                                   corners_.size() == 1 ? "is" : "are", corners_.size()));
   }
   FaceCorners face{.positions = corners_};
   if (has_uv_) face.uv = uv_;
@@ -140,9 +140,9 @@ double ObjReader::component(const char* of, double most) {
   const std::string_view text = cursor_.word_of_line();
   const std::optional<double> value = number_of(text);
   if (value && std::abs(*value) <= most) return *value;
-  refuse_line(cursor_.line(), fmt::format("{} has {}; it should be a number of at most {:g} in "
-                                          "magnitude",
-                                          of, in_quotes(text), most));
+  refuse_line(cursor_.line(), text::format("{} has {}; it should be a number of at most {:g} in "
+                                           "magnitude",
+                                           of, in_quotes(text), most));
 }
 
 void ObjReader::read_normal() {
@@ -183,13 +183,13 @@ void ObjReader::read_line() {
     case ObjStatement::other:
       break;
     case ObjStatement::curved:
-      refuse_line(cursor_.line(), fmt::format("{} makes a curve or a curved surface; CRT reads "
-                                              "faces alone",
-                                              in_quotes(word)));
+      refuse_line(cursor_.line(), text::format("{} makes a curve or a curved surface; CRT reads "
+                                               "faces alone",
+                                               in_quotes(word)));
     case ObjStatement::unknown:
       refuse_line(cursor_.line(),
-                  fmt::format("a line begins with {}, which is no statement of OBJ files",
-                              in_quotes(word)));
+                  text::format("a line begins with {}, which is no statement of OBJ files",
+                               in_quotes(word)));
   }
 }
 

@@ -1,16 +1,15 @@
 // Reads OFF files: Geomview manual, section 4.2.5 (OFF). Their first word may be missing.
 #include "core/mesh_files/off.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/base/text_numbers.hpp"
 #include "core/mesh_files/readers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "core/mesh_files/text_cursor.hpp"
-#include "core/mesh_files/text_numbers.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -36,17 +35,18 @@ void read_off_face(TextCursor& cursor, MeshBuilder& mesh, std::vector<std::uint3
   const std::int64_t count = cursor.integer("the number of a face's corners");
   const std::size_t line = cursor.line();
   if (count < 3)
-    refuse_line(line, fmt::format("a face needs at least three corners, and here it is {}", count));
+    refuse_line(line,
+                text::format("a face needs at least three corners, and here it is {}", count));
   corners.clear();
   for (std::int64_t i = 0; i < count; ++i) {
     const std::string_view word = cursor.word_of_line();
     if (word.empty())
-      refuse_line(line, fmt::format("a face has {} corners, and the line only {}", count, i));
+      refuse_line(line, text::format("a face has {} corners, and the line only {}", count, i));
     const std::optional<std::int64_t> index = integer_of(word);
     const auto vertices = static_cast<std::int64_t>(mesh.position_count());
     if (!index || *index < 0 || *index >= vertices) {
-      refuse_line(line, fmt::format("a corner is {}; it should be between 0 and {}",
-                                    in_quotes(word), vertices - 1));
+      refuse_line(line, text::format("a corner is {}; it should be between 0 and {}",
+                                     in_quotes(word), vertices - 1));
     }
     corners.push_back(static_cast<std::uint32_t>(*index));
   }
@@ -59,7 +59,7 @@ void read_elements(TextCursor& cursor, MeshBuilder& mesh) {
   for (std::int64_t i = 0; i < counts.vertices; ++i) {
     if (cursor.at_end()) {
       refuse_line(cursor.line(),
-                  fmt::format("the file ends after {} of {} vertices", i, counts.vertices));
+                  text::format("the file ends after {} of {} vertices", i, counts.vertices));
     }
     mesh.add_position(cursor.position_of_line());
     cursor.next_line();  // past the vertex's normal, colour or texture coordinates
@@ -68,15 +68,15 @@ void read_elements(TextCursor& cursor, MeshBuilder& mesh) {
   for (std::int64_t i = 0; i < counts.faces; ++i) {
     if (cursor.at_end())
       refuse_line(cursor.line(),
-                  fmt::format("the file ends after {} of {} faces", i, counts.faces));
+                  text::format("the file ends after {} of {} faces", i, counts.faces));
     read_off_face(cursor, mesh, corners);
     cursor.next_line();  // past its colour
   }
   if (!cursor.at_end()) {
     refuse_line(cursor.line(),
-                fmt::format("there is more than the {} vertices and {} faces that the file begins "
-                            "with",
-                            counts.vertices, counts.faces));
+                text::format("there is more than the {} vertices and {} faces that the file begins "
+                             "with",
+                             counts.vertices, counts.faces));
   }
 }
 
@@ -103,17 +103,17 @@ void read_off(std::string_view content, MeshBuilder& mesh) {
   if (!length) {
     const std::string_view first = cursor.word();
     if (!integer_of(first)) refuse_line(cursor.line(), "it does not begin with the word OFF");
-    mesh.warn(fmt::format("line {}: it does not begin with the word OFF, but is read as if it did",
-                          cursor.line()));
+    mesh.warn(text::format("line {}: it does not begin with the word OFF, but is read as if it did",
+                           cursor.line()));
     cursor.put_back(first);
     read_elements(cursor, mesh);
     return;
   }
   const std::string_view word = cursor.rest().substr(0, *length);
   if (word.find_first_of("4n") != std::string_view::npos) {
-    refuse_line(cursor.line(), fmt::format("{} has vertices of other than three coordinates; CRT "
-                                           "reads OFF, with C, N and ST before it",
-                                           in_quotes(word)));
+    refuse_line(cursor.line(), text::format("{} has vertices of other than three coordinates; CRT "
+                                            "reads OFF, with C, N and ST before it",
+                                            in_quotes(word)));
   }
   cursor.skip(*length);
   if (const std::string_view mode = cursor.word_of_line(); mode == "BINARY") {

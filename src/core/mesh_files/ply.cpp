@@ -1,6 +1,4 @@
 // Reads the rows of PLY files: see ply_header.hpp.
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +13,7 @@
 #include "core/mesh_files/readers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "core/mesh_files/text_cursor.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -146,9 +145,9 @@ class PlyReader {
       most = std::min(most, rows_.most_left(property.count_type.value_or(property.type)));
     if (element.count > most) {
       rows_.refuse(
-          fmt::format("the header says that there are {} rows of {}, and the file has "
-                      "room for {} at most",
-                      element.count, in_quotes(element.name), most));
+          text::format("the header says that there are {} rows of {}, and the file has "
+                       "room for {} at most",
+                       element.count, in_quotes(element.name), most));
     }
   }
 
@@ -170,11 +169,11 @@ class PlyReader {
   std::uint64_t read_count(const PlyProperty& property) {
     const double count = rows_.next(*property.count_type);
     if (!(count >= 0) || count != std::floor(count))
-      rows_.refuse(fmt::format("a list of {} numbers: it should be a whole number from 0", count));
+      rows_.refuse(text::format("a list of {} numbers: it should be a whole number from 0", count));
     const std::uint64_t most = rows_.most_left(property.type);
     if (count > static_cast<double>(most)) {
       rows_.refuse(
-          fmt::format("a list of {} numbers, and the file has room for {} at most", count, most));
+          text::format("a list of {} numbers, and the file has room for {} at most", count, most));
     }
     return static_cast<std::uint64_t>(count);
   }
@@ -202,7 +201,7 @@ class PlyReader {
     for (std::size_t axis = 0; axis < first_of_normal; ++axis) {
       if (!places[axis]) {
         throw RefusedMesh(
-            fmt::format("its vertices have no property {}", in_quotes(*names[axis].begin())));
+            text::format("its vertices have no property {}", in_quotes(*names[axis].begin())));
       }
     }
     const auto has_all = [&](std::size_t begin, std::size_t end) {
@@ -244,8 +243,8 @@ class PlyReader {
     const double value = rows_.next(property.type);
     const double most = slot < first_of_uv ? largest_normal : largest_uv;
     if (!(std::abs(value) <= most)) {
-      rows_.refuse(fmt::format("{} of a vertex is {}; it should be at most {:g} in magnitude",
-                               property.name, value, most));
+      rows_.refuse(text::format("{} of a vertex is {}; it should be at most {:g} in magnitude",
+                                property.name, value, most));
     }
     return value;
   }
@@ -253,7 +252,7 @@ class PlyReader {
   double coordinate(const PlyProperty& property) {
     const double value = rows_.next(property.type);
     if (const char* const fault = coordinate_fault(value))
-      rows_.refuse(fmt::format("the coordinate {} of a vertex {}", property.name, fault));
+      rows_.refuse(text::format("the coordinate {} of a vertex {}", property.name, fault));
     return value;
   }
 
@@ -261,8 +260,8 @@ class PlyReader {
     const std::optional<std::size_t> place =
         find_property(element, {"vertex_indices", "vertex_index"});
     if (!place || !element.properties[*place].count_type) {
-      throw RefusedMesh(fmt::format("its {} have no list 'vertex_indices'",
-                                    element.name == "face" ? "faces" : "triangle strips"));
+      throw RefusedMesh(text::format("its {} have no list 'vertex_indices'",
+                                     element.name == "face" ? "faces" : "triangle strips"));
     }
     for (std::uint64_t row = 0; row < element.count; ++row) {
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -280,7 +279,7 @@ class PlyReader {
   void read_face(const PlyProperty& property) {
     const std::uint64_t count = read_count(property);
     if (count < 3)
-      rows_.refuse(fmt::format("a face needs at least three corners, and here are {}", count));
+      rows_.refuse(text::format("a face needs at least three corners, and here are {}", count));
     corners_.clear();
     for (std::uint64_t i = 0; i < count; ++i)
       corners_.push_back(to_vertex(rows_.next(property.type)));
@@ -311,9 +310,9 @@ class PlyReader {
     if (!(index >= 0 && index < static_cast<double>(mesh_.position_count())) ||
         index != std::floor(index)) {
       rows_.refuse(
-          fmt::format("a corner is vertex {}; it should be a whole number from 0, less "
-                      "than {}",
-                      index, mesh_.position_count()));
+          text::format("a corner is vertex {}; it should be a whole number from 0, less "
+                       "than {}",
+                       index, mesh_.position_count()));
     }
     return static_cast<std::uint32_t>(index);
   }

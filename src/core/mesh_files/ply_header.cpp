@@ -1,13 +1,12 @@
 #include "core/mesh_files/ply_header.hpp"
 
-#include <fmt/format.h>
-
 #include <string>
 #include <utility>
 
+#include "core/base/text_numbers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "core/mesh_files/text_cursor.hpp"
-#include "core/mesh_files/text_numbers.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -30,9 +29,9 @@ PlyType read_type(TextCursor& cursor) {
   const std::string_view word = cursor.word_of_line();
   const std::optional<PlyType> type = type_named(word);
   if (!type) {
-    refuse_line(cursor.line(), fmt::format("{} is no type of PLY files: they have char, uchar, "
-                                           "short, ushort, int, uint, float and double",
-                                           in_quotes(word)));
+    refuse_line(cursor.line(), text::format("{} is no type of PLY files: they have char, uchar, "
+                                            "short, ushort, int, uint, float and double",
+                                            in_quotes(word)));
   }
   return *type;
 }
@@ -57,9 +56,10 @@ PlyElement read_element(TextCursor& cursor) {
   const std::string_view word = cursor.word_of_line();
   const std::optional<std::int64_t> count = integer_of(word);
   if (!count || *count < 0) {
-    refuse_line(cursor.line(), fmt::format("an element needs a name and a number of rows, and here "
-                                           "the number is {}",
-                                           in_quotes(word)));
+    refuse_line(cursor.line(),
+                text::format("an element needs a name and a number of rows, and here "
+                             "the number is {}",
+                             in_quotes(word)));
   }
   element.count = static_cast<std::uint64_t>(*count);
   return element;
@@ -70,14 +70,14 @@ std::optional<std::endian> read_format(TextCursor& cursor) {
   const std::string_view version = cursor.word_of_line();
   if (version != "1.0") {
     refuse_line(cursor.line(),
-                fmt::format("the version is {}; CRT reads version 1.0", in_quotes(version)));
+                text::format("the version is {}; CRT reads version 1.0", in_quotes(version)));
   }
   if (format == "ascii") return {};
   if (format == "binary_little_endian") return std::endian::little;
   if (format == "binary_big_endian") return std::endian::big;
-  refuse_line(cursor.line(), fmt::format("the format is {}; it should be ascii, "
-                                         "binary_little_endian or binary_big_endian",
-                                         in_quotes(format)));
+  refuse_line(cursor.line(), text::format("the format is {}; it should be ascii, "
+                                          "binary_little_endian or binary_big_endian",
+                                          in_quotes(format)));
 }
 
 }  // namespace
@@ -126,9 +126,9 @@ PlyHeader read_ply_header(std::string_view content) {
     } else if (word.empty()) {
       refuse_line(cursor.line(), "the header has no end: there is no line 'end_header'");
     } else if (word != "comment" && word != "obj_info") {
-      refuse_line(cursor.line(), fmt::format("a line of the header begins with {}; it should be "
-                                             "format, element, property or comment",
-                                             in_quotes(word)));
+      refuse_line(cursor.line(), text::format("a line of the header begins with {}; it should be "
+                                              "format, element, property or comment",
+                                              in_quotes(word)));
     }
   }
   if (!has_format) refuse_line(cursor.line(), "the header has no line 'format'");

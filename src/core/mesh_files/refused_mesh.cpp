@@ -1,15 +1,15 @@
 #include "core/mesh_files/refused_mesh.hpp"
 
-#include <fmt/format.h>
+#include "text/format.hpp"
 
 namespace crt::core {
 
 void refuse_line(std::size_t line, const std::string& reason) {
-  throw RefusedMesh(fmt::format("line {}: {}", line, reason));
+  throw RefusedMesh(text::format("line {}: {}", line, reason));
 }
 
 void refuse_byte(std::size_t byte, const std::string& reason) {
-  throw RefusedMesh(fmt::format("byte {}: {}", byte, reason));
+  throw RefusedMesh(text::format("byte {}: {}", byte, reason));
 }
 
 std::string in_quotes(std::string_view word) {
@@ -20,7 +20,7 @@ std::string in_quotes(std::string_view word) {
     if (byte >= 0x20 && byte < 0x7f) {
       result += c;
     } else {
-      result += fmt::format("\\x{:02x}", byte);
+      result += text::format("\\x{:02x}", byte);
     }
   }
   return result + (word.size() > longest ? "...'" : "'");

@@ -1,8 +1,6 @@
 // Reads STL files: 3D Systems, StereoLithography interface specification (1989).
 #include "core/mesh_files/stl.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
@@ -10,6 +8,7 @@
 #include "core/mesh_files/readers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 #include "core/mesh_files/text_cursor.hpp"
+#include "text/format.hpp"
 #include "text/letters.hpp"
 
 namespace crt::core {
@@ -27,9 +26,9 @@ std::uint32_t claimed_triangles(std::string_view content) {
 }
 
 [[noreturn]] void refuse_word(const TextCursor& cursor, std::string_view word, const char* wanted) {
-  refuse_line(cursor.line(),
-              word.empty() ? fmt::format("the file ends where {} should be", wanted)
-                           : fmt::format("here is {} where {} should be", in_quotes(word), wanted));
+  refuse_line(cursor.line(), word.empty() ? text::format("the file ends where {} should be", wanted)
+                                          : text::format("here is {} where {} should be",
+                                                         in_quotes(word), wanted));
 }
 
 void expect(TextCursor& cursor, const char* wanted) {
@@ -59,7 +58,7 @@ void read_facet(TextCursor& cursor, MeshBuilder& mesh) {
     for (int axis = 0; axis < 3; ++axis) {
       position[axis] = cursor.number("a coordinate");
       if (const char* const fault = coordinate_fault(position[axis]))
-        refuse_line(cursor.line(), fmt::format("a coordinate {}", fault));
+        refuse_line(cursor.line(), text::format("a coordinate {}", fault));
     }
     mesh.add_position(position);
   }
@@ -74,9 +73,9 @@ void read_text(std::string_view content, MeshBuilder& mesh) {
     const std::string_view begin = cursor.word();
     if (!is_first && !is_word(begin, "solid")) {
       mesh.warn(
-          fmt::format("line {}: here is {} where solid or the end should be: it is left out, "
-                      "with all that follows",
-                      cursor.line(), in_quotes(begin)));
+          text::format("line {}: here is {} where solid or the end should be: it is left out, "
+                       "with all that follows",
+                       cursor.line(), in_quotes(begin)));
       return;
     }
     if (!is_word(begin, "solid")) refuse_word(cursor, begin, "solid");
@@ -100,7 +99,7 @@ std::size_t triangle_count(std::string_view content, MeshBuilder& mesh) {
   if (has_size_of_binary_stl(content)) return places;
   const std::uint64_t claimed = claimed_triangles(content);
   const bool is_whole = size % stl_triangle_size == 0;
-  const std::string fault = fmt::format(
+  const std::string fault = text::format(
       "the file says that it has {} triangles, which take {} bytes; but it has {} bytes, which are "
       "{} triangles{}",
       claimed, stl_begin_size + claimed * stl_triangle_size, content.size(), places,
@@ -110,13 +109,13 @@ std::size_t triangle_count(std::string_view content, MeshBuilder& mesh) {
   if (!says_nothing && claimed > 2 * places) refuse_byte(stl_header_size, fault);
   const std::size_t read =
       is_whole ? places : std::min<std::size_t>(says_nothing ? places : claimed, places);
-  mesh.warn(fmt::format("byte {}: {}: it is read as {}", stl_header_size, fault, read));
+  mesh.warn(text::format("byte {}: {}: it is read as {}", stl_header_size, fault, read));
   return read;
 }
 
 void read_binary(std::string_view content, MeshBuilder& mesh) {
   if (content.size() < stl_begin_size) {
-    throw RefusedMesh(fmt::format(
+    throw RefusedMesh(text::format(
         "it has {} bytes; a binary STL file begins with a header of {}, and text with 'solid'",
         content.size(), stl_begin_size));
   }
@@ -129,7 +128,7 @@ void read_binary(std::string_view content, MeshBuilder& mesh) {
       for (int axis = 0; axis < 3; ++axis, place += sizeof(float)) {
         position[axis] = static_cast<double>(number_at<float>(content, place));
         if (const char* const fault = coordinate_fault(position[axis]))
-          refuse_byte(place, fmt::format("a coordinate of triangle {} {}", i, fault));
+          refuse_byte(place, text::format("a coordinate of triangle {} {}", i, fault));
       }
       mesh.add_position(position);
     }

@@ -1,13 +1,12 @@
 #include "core/mesh_files/text_cursor.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <optional>
 #include <string>
 
+#include "core/base/text_numbers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
-#include "core/mesh_files/text_numbers.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -86,19 +85,19 @@ bool TextCursor::at_end() {
 
 double TextCursor::number(const char* what) {
   const std::string_view text = word();
-  if (text.empty()) refuse_line(line_, fmt::format("the file ends where {} should be", what));
+  if (text.empty()) refuse_line(line_, text::format("the file ends where {} should be", what));
   const std::optional<double> value = number_of(text);
   if (!value)
-    refuse_line(line_, fmt::format("{} is {}, which is no number", what, in_quotes(text)));
+    refuse_line(line_, text::format("{} is {}, which is no number", what, in_quotes(text)));
   return *value;
 }
 
 std::int64_t TextCursor::integer(const char* what) {
   const std::string_view text = word();
-  if (text.empty()) refuse_line(line_, fmt::format("the file ends where {} should be", what));
+  if (text.empty()) refuse_line(line_, text::format("the file ends where {} should be", what));
   const std::optional<std::int64_t> value = integer_of(text);
   if (!value)
-    refuse_line(line_, fmt::format("{} is {}, which is no integer", what, in_quotes(text)));
+    refuse_line(line_, text::format("{} is {}, which is no integer", what, in_quotes(text)));
   return *value;
 }
 
@@ -107,12 +106,12 @@ Vec3 TextCursor::position_of_line() {
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view text = word_of_line();
     if (text.empty()) {
-      refuse_line(line_, fmt::format("a vertex needs three coordinates, and here are {}", axis));
+      refuse_line(line_, text::format("a vertex needs three coordinates, and here are {}", axis));
     }
     const std::optional<double> value = number_of(text);
     const char* const fault = value ? coordinate_fault(*value) : "is no number";
     if (fault != nullptr)
-      refuse_line(line_, fmt::format("the coordinate {} {}", in_quotes(text), fault));
+      refuse_line(line_, text::format("the coordinate {} {}", in_quotes(text), fault));
     position[axis] = *value;
   }
   return position;

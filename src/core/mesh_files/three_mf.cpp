@@ -1,8 +1,6 @@
 // Reads 3MF files: the objects that the build lists, in their places. See model_part.hpp.
 //
 // Debian has lib3mf 1.8, which keeps coordinates as floats, so they would not be those of the file.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "core/mesh_files/text_cursor.hpp"
 #include "core/mesh_files/xml_reader.hpp"
 #include "core/mesh_files/zip_archive.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -75,7 +74,7 @@ class ModelAssembly {
     const auto found = parts_.find(name);
     if (found != parts_.end()) return found->second;
     const ZipEntry* const entry = archive_.find(name);
-    if (entry == nullptr) throw RefusedMesh(fmt::format("it has no part {}", in_quotes(name)));
+    if (entry == nullptr) throw RefusedMesh(text::format("it has no part {}", in_quotes(name)));
     return parts_.emplace(name, read_model_part(archive_, *entry)).first->second;
   }
 
@@ -93,10 +92,11 @@ class ModelAssembly {
     const ModelPart& model = part(path);
     const auto found = model.objects.find(placed.id);
     if (found == model.objects.end())
-      throw RefusedMesh(fmt::format("{} has no object with the id {}", in_quotes(path), placed.id));
+      throw RefusedMesh(
+          text::format("{} has no object with the id {}", in_quotes(path), placed.id));
     if (depth > deepest) {
-      throw RefusedMesh(fmt::format("object {} of {} is nested in others {} deep, or in itself",
-                                    placed.id, in_quotes(path), deepest));
+      throw RefusedMesh(text::format("object {} of {} is nested in others {} deep, or in itself",
+                                     placed.id, in_quotes(path), deepest));
     }
     std::optional<ModelTransform> transform = placed.transform ? placed.transform : outer;
     if (placed.transform && outer) transform = both(*placed.transform, *outer);
@@ -114,7 +114,7 @@ class ModelAssembly {
       const Vec3 moved = transform ? (*transform)(position) : position;
       for (int axis = 0; axis < 3; ++axis) {
         if (const char* const fault = coordinate_fault(moved[axis]))
-          throw RefusedMesh(fmt::format("a coordinate of a vertex in its place {}", fault));
+          throw RefusedMesh(text::format("a coordinate of a vertex in its place {}", fault));
       }
       mesh_.add_position(moved);
     }

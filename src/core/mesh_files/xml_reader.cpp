@@ -1,13 +1,13 @@
 #include "core/mesh_files/xml_reader.hpp"
 
 #include <expat.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <new>
 #include <utility>
 
 #include "core/mesh_files/refused_mesh.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -46,7 +46,7 @@ struct XmlReader::Callbacks {
       // Expat keeps each open tag.
       constexpr int deepest = 100;
       if (++reader.depth_ > deepest)
-        throw RefusedMesh(fmt::format("tags are nested more than {} deep", deepest));
+        throw RefusedMesh(text::format("tags are nested more than {} deep", deepest));
       XmlElement& element = reader.element_;
       element.name = name_of(name);
       element.attributes.clear();
@@ -90,7 +90,7 @@ XmlReader::~XmlReader() {
 
 void XmlReader::refuse(const std::string& reason) const {
   throw RefusedMesh(
-      fmt::format("{}, line {}: {}", in_quotes(name_), XML_GetCurrentLineNumber(parser_), reason));
+      text::format("{}, line {}: {}", in_quotes(name_), XML_GetCurrentLineNumber(parser_), reason));
 }
 
 void XmlReader::parse(std::string_view piece, bool last) {
@@ -109,7 +109,7 @@ void XmlReader::parse(std::string_view piece, bool last) {
   if (status != XML_STATUS_OK) {
     const XML_Error error = XML_GetErrorCode(parser_);
     if (error == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-    refuse(fmt::format("it is no XML: {}", XML_ErrorString(error)));
+    refuse(text::format("it is no XML: {}", XML_ErrorString(error)));
   }
   if (without_event_ > longest_tag) refuse("a tag or comment is longer than 4 MB");
 }

@@ -1,6 +1,5 @@
 #include "core/mesh_files/zip_archive.hpp"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 
 #include "core/mesh_files/binary_numbers.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
+#include "text/format.hpp"
 #include "text/letters.hpp"
 
 namespace crt::core {
@@ -165,7 +165,7 @@ const ZipEntry* ZipArchive::find(std::string_view name) const {
 std::string_view ZipArchive::packed_bytes(const ZipEntry& entry) const {
   need(bytes_, entry.header_place, file_size);
   if (number_at<std::uint32_t>(bytes_, entry.header_place) != file_mark)
-    refuse_byte(entry.header_place, fmt::format("here {} should begin", in_quotes(entry.name)));
+    refuse_byte(entry.header_place, text::format("here {} should begin", in_quotes(entry.name)));
   const std::uint64_t begin = entry.header_place + file_size +
                               number_at<std::uint16_t>(bytes_, entry.header_place + 26) +
                               number_at<std::uint16_t>(bytes_, entry.header_place + 28);
@@ -179,19 +179,19 @@ void ZipArchive::count_unpacked(std::size_t bytes) {
   constexpr std::uint64_t always_allowed = 1 << 24;
   unpacked_ += bytes;
   if (unpacked_ > always_allowed + most_for_each_byte * bytes_.size()) {
-    throw RefusedMesh(fmt::format("it unpacks to more than {} times its size, as no model does",
-                                  most_for_each_byte));
+    throw RefusedMesh(text::format("it unpacks to more than {} times its size, as no model does",
+                                   most_for_each_byte));
   }
 }
 
 void ZipArchive::unpack(const ZipEntry& entry, const std::function<void(std::string_view)>& take) {
   const std::string name = in_quotes(entry.name);
-  if (entry.encrypted) throw RefusedMesh(fmt::format("{} in it is encrypted", name));
+  if (entry.encrypted) throw RefusedMesh(text::format("{} in it is encrypted", name));
   if (entry.method != method_stored && entry.method != method_deflated) {
     throw RefusedMesh(
-        fmt::format("{} in it is packed by method {}; CRT reads stored (0) and "
-                    "deflated (8)",
-                    name, entry.method));
+        text::format("{} in it is packed by method {}; CRT reads stored (0) and "
+                     "deflated (8)",
+                     name, entry.method));
   }
   uLong checksum = crc32(0, nullptr, 0);
   std::uint64_t size = 0;
@@ -204,13 +204,13 @@ void ZipArchive::unpack(const ZipEntry& entry, const std::function<void(std::str
   std::string_view packed = packed_bytes(entry);
   if (entry.method == method_deflated) {
     if (!inflate_all(packed, pass_on))
-      throw RefusedMesh(fmt::format("{} in it cannot be unpacked: the file is broken", name));
+      throw RefusedMesh(text::format("{} in it cannot be unpacked: the file is broken", name));
   } else {
     for (; !packed.empty(); packed.remove_prefix(std::min(packed.size(), piece_size)))
       pass_on(packed.substr(0, piece_size));
   }
   if (size != entry.size || checksum != entry.checksum)
-    throw RefusedMesh(fmt::format("{} in it is not what was packed: the file is broken", name));
+    throw RefusedMesh(text::format("{} in it is not what was packed: the file is broken", name));
 }
 
 }  // namespace crt::core

@@ -1,7 +1,5 @@
 #include "core/prepare/prepared_data.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <climits>
@@ -18,6 +16,7 @@
 #include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/validate.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -28,9 +27,9 @@ void check_light(const Light& light, std::size_t index) {
   try {
     validate(light);
   } catch (const Error& error) {
-    const std::string place = fmt::format("lights[{}]", index);
-    throw Error(error.code(), fmt::format("{}: {}", place, error.what()),
-                fmt::format("{}.{}", place, error.argument()));
+    const std::string place = text::format("lights[{}]", index);
+    throw Error(error.code(), text::format("{}: {}", place, error.what()),
+                text::format("{}.{}", place, error.argument()));
   }
 }
 

@@ -1,6 +1,4 @@
 // This file finds what is not wrong with a scene but most likely not meant.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 #include <string>
@@ -9,6 +7,7 @@
 #include "core/geometry/mesh/mesh.hpp"
 #include "core/prepare/prepared_data.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -70,9 +69,9 @@ void PreparedData::warn_of_meshes() {
       const MeshTriangles* const mesh = untold_mesh(leaf);
       if (mesh == nullptr || !seen.insert(mesh).second) continue;
       const MeshReport& report = mesh->report();
-      const std::string name = report.name.empty() ? "a mesh" : fmt::format("'{}'", report.name);
+      const std::string name = report.name.empty() ? "a mesh" : text::format("'{}'", report.name);
       for (const std::string& warning : report.warnings)
-        warnings_.push_back(fmt::format("{}: {}", name, warning));
+        warnings_.push_back(text::format("{}: {}", name, warning));
     }
   };
   warn_of(compiled_->leaves);

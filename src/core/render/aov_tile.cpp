@@ -1,13 +1,12 @@
 #include "core/render/aov_tile.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <new>
 #include <utility>
 
 #include "core/render/canvas.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -89,8 +88,8 @@ void add_channels(const Aovs& aovs, Image& image) {
     image.set_channels(std::move(channels));
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::out_of_memory,
-                fmt::format("no memory for further channels of {} x {} pixels", image.width(),
-                            image.height()));
+                text::format("no memory for further channels of {} x {} pixels", image.width(),
+                             image.height()));
   }
 }
 

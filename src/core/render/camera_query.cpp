@@ -1,6 +1,4 @@
 // Programs that trace rays by themselves ask for those of the camera.
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "core/camera/camera_rays.hpp"
@@ -8,6 +6,7 @@
 #include "core/prepare/prepared_data.hpp"
 #include "crt/error.hpp"
 #include "crt/query.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -27,7 +26,7 @@ void camera_rays(const PreparedScene& scene, std::span<const std::array<double, 
     // What is not finite, or overflows, leaves no ray that can be traced.
     if (!std::isfinite(x) || !std::isfinite(y) || first_invalid(rays.subspan(i, 1)) == 0) {
       throw Error(ErrorCode::invalid_argument,
-                  fmt::format("places[{}] is not finite, or too far outside the picture", i),
+                  text::format("places[{}] is not finite, or too far outside the picture", i),
                   "places");
     }
   }

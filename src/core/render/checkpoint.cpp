@@ -1,7 +1,5 @@
 #include "core/render/checkpoint.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -15,6 +13,7 @@
 
 #include "core/render/tracer.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -172,7 +171,7 @@ void Checkpoint::read() {
   if (!is_ours || in.get<std::uint64_t>() != fingerprint_) {
     throw Error(
         ErrorCode::invalid_argument,
-        fmt::format(
+        text::format(
             "the checkpoint '{}' is of another picture: of another scene, size, part, accuracy, "
             "or by another version of CRT",
             path_.string()),

@@ -1,12 +1,11 @@
 // A checkpoint keeps what is known of a picture between its passes.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <functional>
 #include <memory>
 
 #include "core/render/passes.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -85,7 +84,7 @@ void Passes::restore(StateReader& in) {
   if (passes() > most || (passes() == most && is_within_step())) {
     throw Error(
         ErrorCode::invalid_argument,
-        fmt::format(
+        text::format(
             "the checkpoint is of {} passes{}, which is more than the {} that are asked for",
             passes(), is_within_step() ? " and a part of the next" : "", most),
         "checkpoint");

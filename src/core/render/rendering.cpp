@@ -1,7 +1,5 @@
 #include "core/render/rendering.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -17,6 +15,7 @@
 #include "core/render/pixel.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -32,9 +31,9 @@ Region chosen_region(const RenderOptions& options, const Settings& settings) {
   if (!inside) {
     throw Error(
         ErrorCode::invalid_argument,
-        fmt::format("region of {} x {} pixels at ({}, {}) is not inside the picture of {} x {}",
-                    region.width, region.height, region.x, region.y, settings.width,
-                    settings.height),
+        text::format("region of {} x {} pixels at ({}, {}) is not inside the picture of {} x {}",
+                     region.width, region.height, region.x, region.y, settings.width,
+                     settings.height),
         "region");
   }
   return region;
@@ -63,7 +62,7 @@ void check_passes(const RenderOptions& options, const Settings& settings, const 
       std::int64_t{region.width} * region.height > most_pixels) {
     throw Error(
         ErrorCode::limit,
-        fmt::format(
+        text::format(
             "{} x {} pixels are too many at once with a target error, a time budget or passes: "
             "render regions of up to 2^25 pixels",
             region.width, region.height));
@@ -192,7 +191,7 @@ void Rendering::leave_checkpoint() const {
 
 void Rendering::tell_of_checkpoint(const std::string& complaint) const {
   if (complaint.empty() || !options_.log) return;
-  log(LogLevel::warning, fmt::format("no checkpoint was made: {}", complaint));
+  log(LogLevel::warning, text::format("no checkpoint was made: {}", complaint));
 }
 
 RenderStats Rendering::render_picture() {
@@ -266,30 +265,31 @@ void Rendering::report(const RenderStats& stats) const {
   if (!options_.log) return;
   for (const std::string& warning : data_.warnings()) log(LogLevel::warning, warning);
   log(LogLevel::info,
-      fmt::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
-                  stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
+      text::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
+                   stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
   if (stats.passes > 0) {
     constexpr double steps = 255;
     log(LogLevel::info,
-        fmt::format("{} passes: {} to {} samples a pixel, {:.1f} in the mean; 95 of 100 pixels are "
-                    "within {:.2f} "
-                    "8-bit steps of the truth; {} not within the target",
-                    stats.passes, stats.samples_min, stats.samples_max, stats.samples_mean,
-                    steps * stats.half_width_95, stats.pixels_unresolved));
+        text::format(
+            "{} passes: {} to {} samples a pixel, {:.1f} in the mean; 95 of 100 pixels are "
+            "within {:.2f} "
+            "8-bit steps of the truth; {} not within the target",
+            stats.passes, stats.samples_min, stats.samples_max, stats.samples_mean,
+            steps * stats.half_width_95, stats.pixels_unresolved));
   }
   if (settings_.precision == Precision::exact) {
-    log(LogLevel::info, fmt::format("exact: {} questions were too close for rounded arithmetic",
-                                    stats.escalations));
+    log(LogLevel::info, text::format("exact: {} questions were too close for rounded arithmetic",
+                                     stats.escalations));
   }
   if (options_.threads > stats.threads) {
-    log(LogLevel::warning, fmt::format("asked for {} threads, but this process may use {} at most",
-                                       options_.threads, stats.threads));
+    log(LogLevel::warning, text::format("asked for {} threads, but this process may use {} at most",
+                                        options_.threads, stats.threads));
   }
   if (stats.samples_over_ray_bound > 0) {
     log(LogLevel::warning,
-        fmt::format("{} camera samples reached the bound on rays and dropped the rest: "
-                    "a lower recursion depth costs less",
-                    stats.samples_over_ray_bound));
+        text::format("{} camera samples reached the bound on rays and dropped the rest: "
+                     "a lower recursion depth costs less",
+                     stats.samples_over_ray_bound));
   }
 }
 

@@ -1,7 +1,5 @@
 #include "core/geometry/custom/custom.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,6 +7,7 @@
 #include "core/geometry/checks.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -17,19 +16,20 @@ namespace {
 constexpr std::uint32_t most_faces = Shape::most_compared_faces;
 
 std::string text_of(const Vec3& v) {
-  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+  return text::format("({}, {}, {})", v.x, v.y, v.z);
 }
 
 [[noreturn]] void refuse_answer(const CustomShape& shape, const std::string& complaint) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("{}: {}", shape.name(), complaint), "shape");
+  throw Error(ErrorCode::invalid_argument, text::format("{}: {}", shape.name(), complaint),
+              "shape");
 }
 
 [[noreturn]] void refuse_crossings(const CustomShape& shape, const Ray& ray,
                                    const std::string& complaint) {
-  refuse_answer(shape, fmt::format("{}, along the ray from {} to {} of the shape's own space, for "
-                                   "t from {} to {}",
-                                   complaint, text_of(ray.origin), text_of(ray.direction),
-                                   ray.t_min, ray.t_max));
+  refuse_answer(shape, text::format("{}, along the ray from {} to {} of the shape's own space, for "
+                                    "t from {} to {}",
+                                    complaint, text_of(ray.origin), text_of(ray.direction),
+                                    ray.t_min, ray.t_max));
 }
 
 Bounds bounds_of(const CustomShape& shape) {
@@ -83,11 +83,11 @@ void CalledShape::ask(const Ray& ray, std::vector<CustomCrossing>& found) const 
     refuse_crossings(*shape_, ray, complaint);
   };
   if (found.size() > CustomShape::most_crossings) {
-    refuse(fmt::format("there are {} crossings, and at most {} may be", found.size(),
-                       CustomShape::most_crossings));
+    refuse(text::format("there are {} crossings, and at most {} may be", found.size(),
+                        CustomShape::most_crossings));
   }
   if (found.size() % 2 != 0) {
-    refuse(fmt::format("there are {} crossings, an odd number", found.size()));
+    refuse(text::format("there are {} crossings, an odd number", found.size()));
   }
   // The bounds may be as tight as the program's own rounding makes them.
   constexpr double slack = 1e-6;
@@ -95,15 +95,15 @@ void CalledShape::ask(const Ray& ray, std::vector<CustomCrossing>& found) const 
   double last = -infinity;
   for (CustomCrossing& crossing : found) {
     const auto& [t, error, face] = crossing;
-    if (!std::isfinite(t)) refuse(fmt::format("a crossing has t = {}", t));
-    if (!(error >= 0 && error < infinity)) refuse(fmt::format("an error is {}", error));
+    if (!std::isfinite(t)) refuse(text::format("a crossing has t = {}", t));
+    if (!(error >= 0 && error < infinity)) refuse(text::format("an error is {}", error));
     if (face >= face_count_) {
-      refuse(fmt::format("a crossing has face {} of {}", face, face_count_));
+      refuse(text::format("a crossing has face {} of {}", face, face_count_));
     }
-    if (t < last) refuse(fmt::format("crossings are not in order: {} comes after {}", t, last));
+    if (t < last) refuse(text::format("crossings are not in order: {} comes after {}", t, last));
     last = t;
     if (t < ray.t_min - error - margin || t > ray.t_max + error + margin) {
-      refuse(fmt::format("the crossing at t = {} is not within the bounds", t));
+      refuse(text::format("the crossing at t = {} is not within the bounds", t));
     }
   }
   for (CustomCrossing& crossing : found) {
@@ -117,12 +117,12 @@ CustomPoint CalledShape::ask(const Vec3& position, std::uint32_t face) const {
   const CustomPoint point = shape_->point(position, face);
   const double length = largest_component(point.normal);
   if (!(length > 0 && length < infinity)) {
-    refuse_answer(*shape_, fmt::format("the normal of face {} at {} is {}", face, text_of(position),
-                                       text_of(point.normal)));
+    refuse_answer(*shape_, text::format("the normal of face {} at {} is {}", face,
+                                        text_of(position), text_of(point.normal)));
   }
   if (!std::isfinite(point.u) || !std::isfinite(point.v)) {
-    refuse_answer(*shape_, fmt::format("(u, v) of face {} at {} are ({}, {})", face,
-                                       text_of(position), point.u, point.v));
+    refuse_answer(*shape_, text::format("(u, v) of face {} at {} are ({}, {})", face,
+                                        text_of(position), point.u, point.v));
   }
   return point;
 }
@@ -205,19 +205,20 @@ void validate(const Custom& custom) {
     return std::isfinite(corner.x + corner.y + corner.z) && largest_component(corner) <= farthest;
   };
   if (!is_possible(bounds.lower) || !is_possible(bounds.upper)) {
-    refuse_answer(shape, fmt::format("bounds must be finite and at most 1e100 in magnitude, but "
-                                     "are {} to {}",
-                                     text_of(bounds.lower), text_of(bounds.upper)));
+    refuse_answer(shape, text::format("bounds must be finite and at most 1e100 in magnitude, but "
+                                      "are {} to {}",
+                                      text_of(bounds.lower), text_of(bounds.upper)));
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (bounds.upper[axis] - bounds.lower[axis] >= smallest_length) continue;
-    refuse_answer(shape, fmt::format("upper bounds must be above lower ones by at least 1e-100, "
-                                     "but bounds are {} to {}",
-                                     text_of(bounds.lower), text_of(bounds.upper)));
+    refuse_answer(shape, text::format("upper bounds must be above lower ones by at least 1e-100, "
+                                      "but bounds are {} to {}",
+                                      text_of(bounds.lower), text_of(bounds.upper)));
   }
   const std::uint32_t faces = shape.face_count();
   if (faces == 0 || faces > most_faces) {
-    refuse_answer(shape, fmt::format("there must be 1 to {} faces, but are {}", most_faces, faces));
+    refuse_answer(shape,
+                  text::format("there must be 1 to {} faces, but are {}", most_faces, faces));
   }
 }
 

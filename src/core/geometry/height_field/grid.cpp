@@ -1,13 +1,12 @@
 #include "core/geometry/height_field/grid.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "crt/error.hpp"
 #include "crt/image.hpp"
 #include "crt/primitives.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -29,30 +28,30 @@ HeightGrid::HeightGrid(std::vector<double> heights, std::uint32_t columns, std::
 void HeightGrid::check() const {
   if (columns_ < 2) {
     reject_grid(
-        fmt::format("a height field needs at least 2 columns of heights (it has {})", columns_),
+        text::format("a height field needs at least 2 columns of heights (it has {})", columns_),
         "columns");
   }
   if (rows_ < 2) {
-    reject_grid(fmt::format("a height field needs at least 2 rows of heights (it has {})", rows_),
+    reject_grid(text::format("a height field needs at least 2 rows of heights (it has {})", rows_),
                 "rows");
   }
   const std::uint64_t count = std::uint64_t{columns_} * rows_;
   if (count > most_heights) {
     reject_grid(
-        fmt::format("a height field has at most {} heights (it has {})", most_heights, count),
+        text::format("a height field has at most {} heights (it has {})", most_heights, count),
         "heights");
   }
   if (heights_.size() != count) {
-    reject_grid(fmt::format("{} columns and {} rows need {} heights, not {}", columns_, rows_,
-                            count, heights_.size()),
+    reject_grid(text::format("{} columns and {} rows need {} heights, not {}", columns_, rows_,
+                             count, heights_.size()),
                 "heights");
   }
   const auto wrong = std::find_if(heights_.begin(), heights_.end(),
                                   [](double height) { return !(height >= 0 && height <= 1); });
   if (wrong != heights_.end()) {
     const auto place = static_cast<std::size_t>(wrong - heights_.begin());
-    reject_grid(fmt::format("heights must be from 0 to 1 (in column {} of row {} there is {})",
-                            place % columns_, place / columns_, *wrong),
+    reject_grid(text::format("heights must be from 0 to 1 (in column {} of row {} there is {})",
+                             place % columns_, place / columns_, *wrong),
                 "heights");
   }
   if (std::all_of(heights_.begin(), heights_.end(), [](double height) { return height == 0; })) {

@@ -1,13 +1,12 @@
 // Fields are put together from nodes here.
 #include "crt/field.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/geometry/implicit/field_node.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -24,7 +23,7 @@ Field FieldNode::make(FieldOperation operation, double number, const Field* a, c
   }
   if (node->depth > deepest_field) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("field has more than {} operations within one another", deepest_field),
+                text::format("field has more than {} operations within one another", deepest_field),
                 "field");
   }
   return Field(std::move(node));
@@ -50,7 +49,7 @@ using core::FieldOperation;
 Field::Field(double constant) {
   if (!std::isfinite(constant)) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("field has a number that is not finite ({})", constant), "field");
+                text::format("field has a number that is not finite ({})", constant), "field");
   }
   *this = FieldNode::make(FieldOperation::constant, constant);
 }

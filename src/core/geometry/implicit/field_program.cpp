@@ -1,7 +1,5 @@
 #include "core/geometry/implicit/field_program.hpp"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <map>
 #include <tuple>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -30,7 +29,7 @@ class StepList {
     if (is_new) {
       if (steps.size() == FieldProgram::most_steps) {
         throw Error(ErrorCode::invalid_argument,
-                    fmt::format("field has more than {} operations", FieldProgram::most_steps),
+                    text::format("field has more than {} operations", FieldProgram::most_steps),
                     "field");
       }
       step.result = entry->second;
@@ -105,7 +104,7 @@ void assign_registers(std::vector<FieldStep>& steps) {
       if (count == FieldProgram::most_registers) {
         throw Error(
             ErrorCode::invalid_argument,
-            fmt::format("field needs more than {} values at a time", FieldProgram::most_registers),
+            text::format("field needs more than {} values at a time", FieldProgram::most_registers),
             "field");
       }
       free.push_back(count++);

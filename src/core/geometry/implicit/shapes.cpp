@@ -3,21 +3,20 @@
 // end); Barr, Superquadrics and angle-preserving transformations, 1981.
 #include "crt/implicit_shapes.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <vector>
 
 #include "core/geometry/bounds.hpp"
 #include "core/geometry/checks.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
 namespace {
 
 [[noreturn]] void reject_part(std::size_t part, const char* rule) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("parts: part {} {}", part, rule), "parts");
+  throw Error(ErrorCode::invalid_argument, text::format("parts: part {} {}", part, rule), "parts");
 }
 
 void check_part(const BlobPart& part, std::size_t number) {

@@ -1,11 +1,10 @@
 #include "core/geometry/mesh/edges.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <tuple>
 
 #include "core/geometry/mesh/connected.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -49,8 +48,8 @@ class FaultyEdges {
     if (first_ == nullptr) return "";
     const Vec3& from = positions[first_->low];
     const Vec3& to = positions[first_->high];
-    return fmt::format("{} of its {} edges {}: the first is from ({}, {}, {}) to ({}, {}, {})",
-                       count_, all, fault, from.x, from.y, from.z, to.x, to.y, to.z);
+    return text::format("{} of its {} edges {}: the first is from ({}, {}, {}) to ({}, {}, {})",
+                        count_, all, fault, from.x, from.y, from.z, to.x, to.y, to.z);
   }
 
  private:

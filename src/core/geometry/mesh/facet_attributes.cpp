@@ -1,7 +1,5 @@
 #include "core/geometry/mesh/facet_attributes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +9,7 @@
 #include "core/geometry/mesh/triangles.hpp"
 #include "core/math/direction_and_length.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -27,20 +26,20 @@ void check_corner_indices(const char* field, const char* values,
                           std::size_t positions, std::size_t triangles) {
   if (indices.empty()) {
     if (count == 0 || count == positions) return;
-    reject_attribute(values, fmt::format("has {} items; without {} it must have one for each of "
-                                         "the {} positions",
-                                         count, field, positions));
+    reject_attribute(values, text::format("has {} items; without {} it must have one for each of "
+                                          "the {} positions",
+                                          count, field, positions));
   }
   if (indices.size() != triangles) {
-    reject_attribute(field, fmt::format("has {} items; it must have one for each of the {} "
-                                        "triangles",
-                                        indices.size(), triangles));
+    reject_attribute(field, text::format("has {} items; it must have one for each of the {} "
+                                         "triangles",
+                                         indices.size(), triangles));
   }
   for (std::size_t i = 0; i < indices.size(); ++i) {
     for (const std::uint32_t index : indices[i]) {
       if (index < count || index == no_index) continue;
-      reject_attribute(field, fmt::format("[{}] has the index {}, but there are {} {}", i, index,
-                                          count, values));
+      reject_attribute(field, text::format("[{}] has the index {}, but there are {} {}", i, index,
+                                           count, values));
     }
   }
 }
@@ -50,14 +49,14 @@ void check_materials(const MeshAttributes& attributes, std::size_t triangles) {
   if (numbers.empty()) return;
   if (numbers.size() != triangles) {
     reject_attribute("material_of_triangle",
-                     fmt::format("has {} items; it must have one for each of the {} triangles",
-                                 numbers.size(), triangles));
+                     text::format("has {} items; it must have one for each of the {} triangles",
+                                  numbers.size(), triangles));
   }
   const std::size_t count = attributes.materials.size();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (numbers[i] < count || numbers[i] == no_index) continue;
     reject_attribute("material_of_triangle",
-                     fmt::format("[{}] is {}, but there are {} materials", i, numbers[i], count));
+                     text::format("[{}] is {}, but there are {} materials", i, numbers[i], count));
   }
 }
 
@@ -104,13 +103,13 @@ void check_attributes(const MeshAttributes& attributes, std::size_t positions,
   for (std::size_t i = 0; i < attributes.normals.size(); ++i) {
     const Vec3& normal = attributes.normals[i];
     if (std::isfinite(normal.x) && std::isfinite(normal.y) && std::isfinite(normal.z)) continue;
-    reject_attribute("normals", fmt::format("[{}] is not finite", i));
+    reject_attribute("normals", text::format("[{}] is not finite", i));
   }
   constexpr double largest_uv = 1e30;
   for (std::size_t i = 0; i < attributes.uv.size(); ++i) {
     const auto& [u, v] = attributes.uv[i];
     if (std::abs(u) <= largest_uv && std::abs(v) <= largest_uv) continue;
-    reject_attribute("uv", fmt::format("[{}] is not finite or above 1e30 in magnitude", i));
+    reject_attribute("uv", text::format("[{}] is not finite or above 1e30 in magnitude", i));
   }
   check_corner_indices("normal_indices", "normals", attributes.normal_indices,
                        attributes.normals.size(), positions, triangles);

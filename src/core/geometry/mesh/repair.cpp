@@ -1,11 +1,10 @@
 #include "core/geometry/mesh/repair.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
 #include "core/geometry/checks.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -14,7 +13,7 @@ namespace {
 void check_distance(const char* name, double distance) {
   constexpr double largest = 1e100;
   if (distance >= 0 && distance <= largest) return;
-  reject(name, fmt::format("must be from 0 to 1e100 (it is {})", distance).c_str());
+  reject(name, text::format("must be from 0 to 1e100 (it is {})", distance).c_str());
 }
 
 /// Returns a copy that may be changed.
@@ -70,13 +69,13 @@ std::shared_ptr<const MeshTriangles> make_mesh_triangles(const GivenMesh& given,
     weld(mesh, options.weld, report);
     if (options.weld > 0) {
       report.warnings.push_back(
-          fmt::format("weld has made {} of its vertices others, and {} of its triangles went",
-                      report.welded_vertices, report.welded_triangles));
+          text::format("weld has made {} of its vertices others, and {} of its triangles went",
+                       report.welded_vertices, report.welded_triangles));
     }
     if (options.stitch > 0) {
       report.stitched_vertices = stitch(mesh, options.stitch);
       report.warnings.push_back(
-          fmt::format("stitch has put {} vertices into edges", report.stitched_vertices));
+          text::format("stitch has put {} vertices into edges", report.stitched_vertices));
     }
     result = std::make_shared<const MeshTriangles>(mesh.positions, mesh.triangles, &mesh.attributes,
                                                    fill, std::move(report));

@@ -1,7 +1,5 @@
 #include "core/geometry/mesh/shells.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "core/geometry/mesh/met_triangles.hpp"
 #include "core/geometry/triangle/triangle.hpp"
 #include "core/math/vector.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -88,7 +87,7 @@ std::uint32_t end_of(std::span<const std::uint32_t> shells) {
 }
 
 std::string place_text(const Vec3& place) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", place.x, place.y, place.z);
+  return text::format("({:.6g}, {:.6g}, {:.6g})", place.x, place.y, place.z);
 }
 
 /// An OverlapCount marks shells that overlap others or themselves.
@@ -174,17 +173,17 @@ void add_mesh_warnings(const MeshTriangles& mesh, const MeshEdges& edges, MeshRe
   const bool is_nonzero = report.fill == FillRule::nonzero;
   if (report.repeated_triangles > 0) {
     report.warnings.push_back(
-        fmt::format("{} of its {} triangles repeat others, the first at {}: {}",
-                    report.repeated_triangles, mesh.size(), place_text(report.first_repeated),
-                    is_nonzero ? "by 'nonzero' they change nothing if they are turned the same way"
-                               : "by 'evenodd' they enclose nothing together with those"));
+        text::format("{} of its {} triangles repeat others, the first at {}: {}",
+                     report.repeated_triangles, mesh.size(), place_text(report.first_repeated),
+                     is_nonzero ? "by 'nonzero' they change nothing if they are turned the same way"
+                                : "by 'evenodd' they enclose nothing together with those"));
   }
   if (report.overlapping_shells > 0) {
     report.warnings.push_back(
-        fmt::format("{} of its {} shells lie in others or overlap, the first at {}: {}",
-                    report.overlapping_shells, report.shells, place_text(report.first_overlap),
-                    is_nonzero ? "by 'nonzero' they are one solid"
-                               : "by 'evenodd' what two of them share is hollow"));
+        text::format("{} of its {} shells lie in others or overlap, the first at {}: {}",
+                     report.overlapping_shells, report.shells, place_text(report.first_overlap),
+                     is_nonzero ? "by 'nonzero' they are one solid"
+                                : "by 'evenodd' what two of them share is hollow"));
   }
 }
 

@@ -1,6 +1,4 @@
 // T-junctions are closed by dividing edges: no vertex moves.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
@@ -11,6 +9,7 @@
 #include "core/geometry/mesh/repair.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -240,9 +239,9 @@ std::uint64_t stitch(RepairedMesh& mesh, double tolerance) {
       if (divisions > most_divisions) {
         throw Error(
             ErrorCode::limit,
-            fmt::format("stitch finds more than {} vertices on edges: too many edges lie on "
-                        "one another",
-                        most_divisions),
+            text::format("stitch finds more than {} vertices on edges: too many edges lie on "
+                         "one another",
+                         most_divisions),
             "stitch");
       }
       const bool is_upwards = edge->from == edge->low;

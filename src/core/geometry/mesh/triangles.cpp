@@ -1,7 +1,5 @@
 #include "core/geometry/mesh/triangles.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <tuple>
 
@@ -17,6 +15,7 @@
 #include "core/geometry/triangle/triangle.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -30,13 +29,13 @@ namespace {
 
 void check_indices(std::span<const TriangleIndices> triangles, std::size_t positions) {
   if (triangles.size() > BvhChild::most_items || positions > 0xffffffffu) {
-    reject_mesh(fmt::format("a mesh has at most {} triangles", BvhChild::most_items), "triangles");
+    reject_mesh(text::format("a mesh has at most {} triangles", BvhChild::most_items), "triangles");
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t index : triangles[i]) {
       if (index < positions) continue;
-      reject_mesh(fmt::format("triangle {} has the index {}, but there are {} positions", i, index,
-                              positions),
+      reject_mesh(text::format("triangle {} has the index {}, but there are {} positions", i, index,
+                               positions),
                   "indices");
     }
   }

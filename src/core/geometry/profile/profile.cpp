@@ -1,7 +1,5 @@
 #include "core/geometry/profile/profile.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +13,7 @@
 #include "core/math/dyadic_vector.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt {
 
@@ -29,7 +28,7 @@ constexpr std::size_t most_pieces = std::size_t{1} << 26;
 }
 
 std::string name_of(std::size_t contour, std::size_t corner) {
-  return fmt::format("corner {} of contour {}", corner, contour);
+  return text::format("corner {} of contour {}", corner, contour);
 }
 
 Vec3 place_of(const ProfilePoint& point) {
@@ -39,11 +38,11 @@ Vec3 place_of(const ProfilePoint& point) {
 void check_corner(const ProfilePoint& point, const std::string& name) {
   constexpr double largest = 1e100;
   for (const double number : {point.x, point.y, point.bulge}) {
-    if (!std::isfinite(number)) reject_profile(fmt::format("{} has {}", name, number));
+    if (!std::isfinite(number)) reject_profile(text::format("{} has {}", name, number));
   }
   if (largest_component(place_of(point)) > largest) {
-    reject_profile(fmt::format("{} must be at most 1e100 in magnitude (it is ({}, {}))", name,
-                               point.x, point.y));
+    reject_profile(text::format("{} must be at most 1e100 in magnitude (it is ({}, {}))", name,
+                                point.x, point.y));
   }
 }
 
@@ -181,7 +180,7 @@ Profile::Profile(std::span<const Contour> contours) : contours_(contours.begin()
   std::size_t corners = 0;
   for (const Contour& contour : contours) corners += contour.size();
   if (corners > most_pieces) {
-    reject_profile(fmt::format("it has at most {} corners (it has {})", most_pieces, corners));
+    reject_profile(text::format("it has at most {} corners (it has {})", most_pieces, corners));
   }
   for (std::size_t i = 0; i < contours.size(); ++i) add(contours[i], i);
   find_lines();
@@ -204,9 +203,9 @@ void Profile::add(const Contour& contour, std::size_t number) {
     const double bulge = corners[next].bulge;
     Piece piece{.from = place_of(corners[i]), .to = place_of(corners[next])};
     if (largest_component(piece.to - piece.from) < smallest_length) {
-      reject_profile(fmt::format("{} and {} must be at least 1e-100 apart",
-                                 name_of(number, names.kept[i]),
-                                 name_of(number, names.kept[next])));
+      reject_profile(text::format("{} and {} must be at least 1e-100 apart",
+                                  name_of(number, names.kept[i]),
+                                  name_of(number, names.kept[next])));
     }
     piece.share_from = length;
     const double chord = glm::length(piece.to - piece.from);
@@ -216,9 +215,9 @@ void Profile::add(const Contour& contour, std::size_t number) {
       std::optional<Arc> arc = arc_between(piece.from, piece.to, bulge);
       if (!arc) {
         reject_profile(
-            fmt::format("the arc to {} is too flat, or too small at its place, for "
-                        "doubles to say its circle (its bulge is {})",
-                        name_of(number, names.kept[next]), bulge));
+            text::format("the arc to {} is too flat, or too small at its place, for "
+                         "doubles to say its circle (its bulge is {})",
+                         name_of(number, names.kept[next]), bulge));
       }
       arc->piece = static_cast<std::uint32_t>(pieces_.size());
       piece.arc = static_cast<std::uint32_t>(arcs_.size());
@@ -229,8 +228,8 @@ void Profile::add(const Contour& contour, std::size_t number) {
     pieces_.push_back(piece);
   }
   if (!has_area) {
-    reject_profile(fmt::format("contour {} must enclose an area (its {} corners are on one line)",
-                               number, corners.size()));
+    reject_profile(text::format("contour {} must enclose an area (its {} corners are on one line)",
+                                number, corners.size()));
   }
   for (std::size_t i = first_piece; i < pieces_.size(); ++i) {
     pieces_[i].share_from /= length;

@@ -1,7 +1,5 @@
 #include "core/geometry/revolution/revolution.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "core/geometry/profile/contour_share.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -134,21 +133,22 @@ struct CornerPlace {
 };
 
 [[noreturn]] void reject_profile(const CornerPlace& place, const std::string& rule) {
-  throw Error(ErrorCode::invalid_argument,
-              fmt::format("profile: corner {} of contour {} {}", place.corner, place.contour, rule),
-              "profile");
+  throw Error(
+      ErrorCode::invalid_argument,
+      text::format("profile: corner {} of contour {} {}", place.corner, place.contour, rule),
+      "profile");
 }
 
 void check_corner(const ProfilePoint& corner, const CornerPlace& place) {
   if (corner.x < 0) {
-    reject_profile(place, fmt::format("must be at x >= 0, as x is the distance from the axis (it "
-                                      "is at x = {})",
-                                      corner.x));
+    reject_profile(place, text::format("must be at x >= 0, as x is the distance from the axis (it "
+                                       "is at x = {})",
+                                       corner.x));
   }
   if (corner.x != 0 && corner.x < smallest_length) {
-    reject_profile(place, fmt::format("must be on the axis or at least 1e-100 from it (it is at "
-                                      "x = {})",
-                                      corner.x));
+    reject_profile(place, text::format("must be on the axis or at least 1e-100 from it (it is at "
+                                       "x = {})",
+                                       corner.x));
   }
 }
 
@@ -166,9 +166,9 @@ void check_piece(const Profile& profile, const Profile::Piece& piece, const Corn
   const Vec3 along = piece.to - piece.from;
   const double left = along.x * (arc.center.y - piece.from.y) - along.y * (nearest - piece.from.x);
   if (nearest < -rounding * arc.radius && left != 0 && (left < 0) == arc.is_right) {
-    reject_profile(place, fmt::format("must not be reached by an arc beyond the axis (it goes to "
-                                      "x = {})",
-                                      nearest));
+    reject_profile(place, text::format("must not be reached by an arc beyond the axis (it goes to "
+                                       "x = {})",
+                                       nearest));
   }
 }
 
@@ -178,9 +178,9 @@ void validate(const Revolution& revolution) {
   // Degrees may have been turned into radians with a rounding.
   constexpr double largest = 2 * std::numbers::pi * (1 + 0x1p-50);
   if (!(revolution.angle >= smallest_length && revolution.angle <= largest)) {
-    reject("angle", fmt::format("must be above 0 and at most a whole turn, which is 2 pi (it is "
-                                "{})",
-                                revolution.angle)
+    reject("angle", text::format("must be above 0 and at most a whole turn, which is 2 pi (it is "
+                                 "{})",
+                                 revolution.angle)
                         .c_str());
   }
   if (!revolution.profile) reject("profile", "must be given (see make_profile)");

@@ -1,4 +1,4 @@
-// Numbers in the text of mesh files.
+// Numbers in the text of files and of paths.
 #pragma once
 
 #include <cstdint>

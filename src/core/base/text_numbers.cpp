@@ -1,4 +1,4 @@
-#include "core/mesh_files/text_numbers.hpp"
+#include "core/base/text_numbers.hpp"
 
 #include <charconv>
 #include <cmath>
