@@ -9,22 +9,23 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crt)
 
-install(TARGETS crt_image_files EXPORT crt_static
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/crt COMPONENT runtime)
-install(TARGETS crt_core crt_lang crt_farm crt_format crt_service crt_source crt_capi_static
-  EXPORT crt_static
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-set_target_properties(crt_core PROPERTIES EXPORT_NAME core)
-set_target_properties(crt_lang PROPERTIES EXPORT_NAME lang)
-set_target_properties(crt_farm PROPERTIES EXPORT_NAME farm)
-set_target_properties(crt_format PROPERTIES EXPORT_NAME format)
-set_target_properties(crt_service PROPERTIES EXPORT_NAME service)
-set_target_properties(crt_source PROPERTIES EXPORT_NAME source)
-set_target_properties(crt_image_files PROPERTIES EXPORT_NAME image_files)
-if(TARGET crt_studio)
-  install(TARGETS crt_studio EXPORT crt_static
+set(built_components static) # of the CMake package
+foreach(library core lang source farm format service studio)
+  if(NOT TARGET crt_${library})
+    continue()
+  endif()
+  install(TARGETS crt_${library} EXPORT crt_static
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-  set_target_properties(crt_studio PROPERTIES EXPORT_NAME studio)
+  set_target_properties(crt_${library} PROPERTIES EXPORT_NAME ${library})
+  list(APPEND built_components ${library})
+endforeach()
+list(REMOVE_ITEM built_components format) # crt::service needs it, and nobody else
+install(TARGETS crt_capi_static EXPORT crt_static
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+if(TARGET crt_image_files)
+  install(TARGETS crt_image_files EXPORT crt_static
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/crt COMPONENT runtime)
+  set_target_properties(crt_image_files PROPERTIES EXPORT_NAME image_files)
 endif()
 install(EXPORT crt_static NAMESPACE crt:: FILE crtStaticTargets.cmake
   DESTINATION ${package_dir} COMPONENT development)
@@ -49,6 +50,21 @@ endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/crt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT development FILES_MATCHING PATTERN *.h PATTERN *.hpp)
 
+# What the static libraries are linked with: packages of CMake, and options of linkers.
+set(static_packages Threads glm TBB embree)
+set(static_links -lembree${embree_VERSION_MAJOR} -ltbb)
+if(CRT_WITH_IMAGES OR CRT_WITH_MESH_FILES)
+  list(APPEND static_packages ZLIB)
+  list(APPEND static_links -lz)
+endif()
+if(CRT_WITH_MESH_FILES)
+  list(APPEND static_packages EXPAT)
+  list(APPEND static_links -lexpat)
+endif()
+list(JOIN static_packages ", " static_packages_text)
+list(JOIN static_packages " " static_packages)
+list(JOIN built_components " " built_components)
+
 set(image_files_dir ${CMAKE_INSTALL_LIBDIR}/crt)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/crtConfig.cmake.in
   ${PROJECT_BINARY_DIR}/package/crtConfig.cmake
@@ -60,14 +76,14 @@ install(FILES ${PROJECT_BINARY_DIR}/package/crtConfig.cmake
   DESTINATION ${package_dir} COMPONENT development)
 
 # This makes crt.pc. What libcrt.a needs beside it is all in Libs.private: a Requires.private would
-# make a program that links libcrt.so ask for the development packages of fmt and TBB.
+# make a program that links libcrt.so ask for the development packages of Embree and TBB.
 set(pc_prefix ${CMAKE_INSTALL_PREFIX})
 if(NOT IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
   file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
   string(REGEX REPLACE "/$" "" pc_prefix "\${pcfiledir}/${up}")
 endif()
 set(pc_directories)
-foreach(library embree TBB::tbb fmt::fmt)
+foreach(library embree TBB::tbb)
   get_target_property(file ${library} LOCATION)
   get_filename_component(directory ${file} DIRECTORY)
   if(NOT directory IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES
@@ -75,12 +91,17 @@ foreach(library embree TBB::tbb fmt::fmt)
     list(APPEND pc_directories -L${directory})
   endif()
 endforeach()
-list(JOIN pc_directories " " pc_directories)
-string(CONCAT pc_private
-  "-lcrt_farm -lcrt_source -lcrt_lang -lcrt_core ${pc_directories}"
-  " -lembree${embree_VERSION_MAJOR} -ltbb -lfmt -lz -lexpat -lstdc++ -lm -ldl -pthread"
-  " -Wl,-rpath,\${libdir}/crt")
-string(REPLACE "  " " " pc_private "${pc_private}")
+set(pc_private)
+foreach(library farm source lang core)
+  if(TARGET crt_${library})
+    list(APPEND pc_private -lcrt_${library})
+  endif()
+endforeach()
+list(APPEND pc_private ${pc_directories} ${static_links} -lstdc++ -lm -ldl -pthread)
+if(CRT_WITH_IMAGES)
+  list(APPEND pc_private "-Wl,-rpath,\${libdir}/crt")
+endif()
+list(JOIN pc_private " " pc_private)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/crt.pc.in ${PROJECT_BINARY_DIR}/package/crt.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/package/crt.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

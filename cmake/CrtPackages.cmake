@@ -36,8 +36,10 @@ added, subtracted and intersected) without cutting them into triangles.")
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${runtime_package})
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
-# Text loads it with the first font, which dpkg-shlibdeps cannot see.
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS libfreetype6)
+# This says what the library depends on, and what it only recommends.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_CRT_LIBRARIES ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/CrtRuntimePackage.cmake)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "ray tracer of analytic solids: library with a C interface
 ${about}
 .
@@ -47,7 +49,7 @@ module for image files.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcrt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-  "libglm-dev, libfmt-dev, libtbb-dev, libembree-dev, zlib1g-dev, libexpat1-dev")
+  "libglm-dev, libtbb-dev, libembree-dev, zlib1g-dev, libexpat1-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "ray tracer of analytic solids: development files
 ${about}
 .

@@ -36,7 +36,8 @@ def built(build_tree: str | None) -> pathlib.Path:
     if build_tree:
         return pathlib.Path(build_tree).resolve() / "lib"
     tree = SOURCE / "build/wheel"
-    options = [f"-DCRT_BUILD_{part}=OFF" for part in ("TESTS", "EXAMPLES", "CLI")]
+    left_out = ("BUILD_TESTS", "BUILD_EXAMPLES", "BUILD_CLI", "WITH_STUDIO", "WITH_SERVICE")
+    options = [f"-DCRT_{part}=OFF" for part in left_out]
     if shutil.which("ninja"):
         options.append("-GNinja")
     options += shlex.split(os.environ.get("CMAKE_ARGS", ""))

@@ -3,8 +3,6 @@
 // Patterns match UTF-8. Bytes that are none fall to the rule `*`.
 #include "lang/lexer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -12,6 +10,7 @@
 
 #include "lang/utf8.hpp"
 #include "lang/word_byte.hpp"
+#include "text/format.hpp"
 
 namespace crt::lang {
 
@@ -314,7 +313,7 @@ bool Lexer::refuse_component() {
   constexpr std::size_t colors_from = 3;
   const std::size_t index = component < colors_from ? component : component - colors_from;
   const bool is_name = last_.kind == Kind::S_IDENTIFIER;
-  reporter_.error(token_span(), fmt::format("values have no parts with names; write {}[{}]",
+  reporter_.error(token_span(), text::format("values have no parts with names; write {}[{}]",
                                             is_name ? text(last_.span) : "v", index));
   return true;
 }
