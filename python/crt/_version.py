@@ -1,3 +1,3 @@
 """This is the version of the package, which is that of CRT."""
 
-__version__ = "1.0.0"
+__version__ = "1.1.0"
