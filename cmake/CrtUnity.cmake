@@ -1,11 +1,12 @@
-# With CMAKE_UNITY_BUILD the sources of one folder are compiled as one. That is for the linter and
-# for the build with sanitizers, which then read a header once a folder and not once a source. So
-# no two sources of a folder may give one name to different things.
-# A name may hide one of another source, though. Whether it does within a source, other builds say.
+# With CMAKE_UNITY_BUILD sources of one folder are compiled as one: all of them for the linter and
+# for the build with sanitizers, or as many as CMAKE_UNITY_BUILD_BATCH_SIZE says. A header is then
+# read once for these and not once a source. So no two sources of a folder may give one name to
+# different things (tests/house/twins.awk finds what compilers do not). A variable may hide a name
+# of another source, but not a variable about it.
 target_compile_options(crt_compile INTERFACE -Wno-shadow)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC takes sources that are included for headers, which must have no unnamed namespaces.
-  target_compile_options(crt_compile INTERFACE -Wno-subobject-linkage)
+  target_compile_options(crt_compile INTERFACE -Wno-subobject-linkage -Wshadow=local)
 endif()
 
 foreach(target crt_core crt_lang crt_farm crt_capi_objects crt_format crt_service crt_source
@@ -25,6 +26,11 @@ foreach(target crt_core crt_lang crt_farm crt_capi_objects crt_format crt_servic
     cmake_path(GET source PARENT_PATH folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
     string(MAKE_C_IDENTIFIER "${folder}" group)
+    if(CMAKE_UNITY_BUILD_BATCH_SIZE)
+      math(EXPR number_of_${group} "${number_of_${group}} + 1")
+      math(EXPR batch "(${number_of_${group}} - 1) / ${CMAKE_UNITY_BUILD_BATCH_SIZE}")
+      string(APPEND group "_${batch}")
+    endif()
     set_source_files_properties(${source} TARGET_DIRECTORY ${target}
       PROPERTIES UNITY_GROUP ${group})
   endforeach()

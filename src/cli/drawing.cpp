@@ -37,7 +37,7 @@ std::string color(const Ink& ink) {
   return fmt::format("#{:02x}{:02x}{:02x}", ink.red, ink.green, ink.blue);
 }
 
-const char* name_of(Anchor anchor) {
+const char* anchor_name(Anchor anchor) {
   return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
 }
 
@@ -165,7 +165,7 @@ std::string Drawing::svg_of(const Shape& shape) const {
   const std::string turn =
       shape.upwards ? fmt::format(" transform='rotate(-90 {:.1f} {:.1f})'", first.x, first.y) : "";
   return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' fill='{}'{}>{}</text>\n",
-                     first.x, first.y, name_of(shape.anchor), color(shape.ink), turn,
+                     first.x, first.y, anchor_name(shape.anchor), color(shape.ink), turn,
                      escaped(shape.text));
 }
 

@@ -12,7 +12,7 @@ namespace crt::cli {
 namespace {
 
 /// Returns a text so that it is shown as it is.
-std::string shown(const std::string& text) {
+std::string as_roff(const std::string& text) {
   std::string result;
   for (const char c : text) {
     if (c == '\\') {
@@ -31,29 +31,30 @@ std::string shown(const std::string& text) {
 
 /// Returns lines that are shown as they are broken.
 std::string verbatim(const std::string& lines) {
-  return lines.empty() ? "" : ".PP\n.nf\n" + shown(lines) + "\n.fi\n";
+  return lines.empty() ? "" : ".PP\n.nf\n" + as_roff(lines) + "\n.fi\n";
 }
 
 std::string option_paragraph(const OptionDescription& option) {
   std::string text = ".TP\n";
   if (option.names.empty()) {
-    text += fmt::format("\\fI{}\\fR{}\n", shown(option.type), option.repeatable ? " ..." : "");
+    text += fmt::format("\\fI{}\\fR{}\n", as_roff(option.type), option.repeatable ? " ..." : "");
   } else {
     for (const std::string& name : option.names)
-      text += fmt::format("{}\\fB{}\\fR", &name == &option.names.front() ? "" : ", ", shown(name));
-    if (!option.type.empty()) text += fmt::format(" \\fI{}\\fR", shown(option.type));
+      text +=
+          fmt::format("{}\\fB{}\\fR", &name == &option.names.front() ? "" : ", ", as_roff(name));
+    if (!option.type.empty()) text += fmt::format(" \\fI{}\\fR", as_roff(option.type));
     text += "\n";
   }
-  return text + shown(option.help) + "\n";
+  return text + as_roff(option.help) + "\n";
 }
 
 std::string command_section(const CommandDescription& command) {
-  std::string text = fmt::format(".SS crt {}\n{}\n", command.name, shown(command.about));
+  std::string text = fmt::format(".SS crt {}\n{}\n", command.name, as_roff(command.about));
   std::string group;
   for (const OptionDescription& option : command.options) {
     if (option.group != group) {
       group = option.group;
-      text += fmt::format(".PP\n\\fB{}:\\fR\n", shown(group));
+      text += fmt::format(".PP\n\\fB{}:\\fR\n", as_roff(group));
     }
     text += option_paragraph(option);
   }
@@ -68,11 +69,12 @@ std::string manual_page(const CommandDescriptions& all) {
     text += fmt::format(".B crt {}\n", command.name);
     for (const OptionDescription& option : command.options) {
       if (option.names.empty())
-        text += fmt::format("\\fI{}\\fR{}\n", shown(option.type), option.repeatable ? " ..." : "");
+        text +=
+            fmt::format("\\fI{}\\fR{}\n", as_roff(option.type), option.repeatable ? " ..." : "");
     }
     text += "[\\fIOPTION\\fR ...]\n.br\n";
   }
-  text += ".SH DESCRIPTION\n" + shown(all.main.about) + "\n";
+  text += ".SH DESCRIPTION\n" + as_roff(all.main.about) + "\n";
   text += ".SH OPTIONS\n";
   for (const OptionDescription& option : all.main.options) text += option_paragraph(option);
   text += ".SH COMMANDS\n";

@@ -68,7 +68,7 @@ Value finish_height_field(HeightFieldOfScript given, const ObjectSite& site) {
   return empty_entity();
 }
 
-std::vector<ObjectType> entities() {
+std::vector<ObjectType> entity_types() {
   return {
       entity<Sphere>("Sphere",
                      {required("center", &Sphere::center), required("radius", &Sphere::radius)}),
@@ -355,7 +355,7 @@ ObjectType background() {
 
 std::span<const ObjectType> object_types() {
   static const std::vector<ObjectType> table = [] {
-    std::vector<ObjectType> types = entities();
+    std::vector<ObjectType> types = entity_types();
     for (ObjectType& type : field_objects()) types.push_back(std::move(type));
     types.push_back(material());
     for (ObjectType& type : patterns()) types.push_back(std::move(type));

@@ -34,7 +34,7 @@ TokenKind kind_of_name(const Program& program, lang::Span span) {
 }
 
 /// Returns the kind of a token, or nothing for a sign. `next` is the kind of the next token.
-std::optional<TokenKind> kind_of(const Program& program, const lang::Token& token, int next) {
+std::optional<TokenKind> token_kind(const Program& program, const lang::Token& token, int next) {
   switch (token.kind) {
     case Kind::S_STRING:
       return TokenKind::string;
@@ -66,7 +66,7 @@ std::vector<ScriptToken> tokens_of(const Program& program) {
     for (; comment != comments.end() && comment->begin < tokens[i].span.begin; ++comment)
       add(*comment, TokenKind::comment);
     const int next = i + 1 < tokens.size() ? tokens[i + 1].kind : Kind::S_YYEOF;
-    if (const auto kind = kind_of(program, tokens[i], next)) add(tokens[i].span, *kind);
+    if (const auto kind = token_kind(program, tokens[i], next)) add(tokens[i].span, *kind);
   }
   for (; comment != comments.end(); ++comment) add(*comment, TokenKind::comment);
   return result;

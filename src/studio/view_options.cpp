@@ -13,7 +13,7 @@ namespace {
 /// Cuts have a colour of their own, as in drawings of sections.
 constexpr Color cut_color = {0.85, 0.32, 0.2};
 
-bool are_equal(const std::optional<Region>& a, const std::optional<Region>& b) {
+bool is_same_region(const std::optional<Region>& a, const std::optional<Region>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
 }
@@ -57,7 +57,7 @@ Plane cutter_of(const SectionPlane& section) {
 
 bool differ_in_region_alone(const ViewOptions& a, const ViewOptions& b) {
   return a.channel == b.channel && a.hidden == b.hidden && a.section == b.section && a.t == b.t &&
-         !are_equal(a.region, b.region);
+         !is_same_region(a.region, b.region);
 }
 
 std::optional<Region> clipped(const std::optional<Region>& region, const Settings& settings) {

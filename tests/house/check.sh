@@ -228,6 +228,8 @@ lines_with '^#include "studio/(session|tls)\.hpp"' "${code[@]}" |
   complain "Boost or OpenSSL seen outside the studio's server"
 tracked '*.y' '*.re' | without '^src/lang/' | complain "Bison or re2c outside src/lang"
 check_public_only | complain "Only crt/*.hpp may be seen from here"
+tracked 'src/*.cpp' | xargs -r -d '\n' awk -f tests/house/twins.awk |
+  complain "Two functions of a folder have one name"
 check_umbrella | complain "A public header is missing from crt.hpp"
 tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once' || true; } |
   complain "No #pragma once"
