@@ -144,7 +144,7 @@ TEST_CASE("unit vectors have length 1 whatever they are made of, and axes are ex
       REQUIRE(magnitude(squared - 1) <= 6 * u);
     }
   }
-  CHECK(unit_vector({0, -7, 0}) == crt::Vec3(0, -1, 0));
+  CHECK(unit_vector(crt::Vec3(0, -7, 0)) == crt::Vec3(0, -1, 0));
   CHECK(coordinate_axis({0, -7, 0}) == 1);
   CHECK(coordinate_axis({1e-300, -7, 0}) == -1);
 }
