@@ -10,20 +10,12 @@
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
 #include "geometry/profiles.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-constexpr Precision tiers[] = {Precision::standard, Precision::exact};
-
-PreparedScene scene_of(const Entity& entity, Precision precision) {
-  Scene scene;
-  scene.entities = {entity};
-  scene.settings.precision = precision;
-  return prepare(scene);
-}
 
 Entity extrusion(const std::vector<Contour>& contours, double from, double to) {
   return Extrusion{.profile = make_profile(contours), .from = from, .to = to};
