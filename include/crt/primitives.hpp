@@ -162,11 +162,12 @@ class Profile;
 /// line from it to infinity crosses an odd number of their pieces. So a contour within another is a
 /// hole, whichever way round either goes, and contours may cross themselves and each other.
 ///
-/// An arc lies on a circle whose center and radius are doubles. They are the nearest to those that
-/// the corners and the bulge say. But an arc that is a quarter or three quarters of a circle to
-/// 2^-48, from one axis to the other, has its center exactly at the coordinates of its corners.
-/// What an arc adds to a polygon, or takes away, is the part of its disc beyond the straight line
-/// through its corners. If rounding has put the circle beside a corner, that line closes the gap.
+/// An arc lies on a circle whose center and radius are doubles, whichever way it goes the same.
+/// They are the nearest to those that the corners and the bulge say. But an arc that is a quarter
+/// or three quarters of a circle to 2^-48, from one axis to the other, counts as just that, with
+/// its center exactly at the coordinates of its corners. What an arc adds to a polygon, or takes
+/// away, is the part of its disc beyond the straight line through its corners. If rounding has put
+/// the circle beside a corner, that line closes the gap.
 ///
 /// It takes O(n log n) on the calling thread. Throws Error (invalid_argument) naming the contour
 /// and the corner (both count from 0) if a number is not finite or above 1e100 in magnitude, if two

@@ -1,12 +1,11 @@
 // A thread that calls the library needs no more stack than crt.h says.
-#include <pthread.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
 
 #include "support.hpp"
+#include "support/small_stack.hpp"
 
 using namespace crt::test;
 
@@ -14,29 +13,6 @@ namespace {
 
 /// This is what crt.h promises.
 constexpr std::size_t enough_stack = std::size_t{256} << 10;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::size_t stack_bytes =
-    8 * enough_stack;  // what a sanitizer adds to frames is not ours
-#else
-constexpr std::size_t stack_bytes = enough_stack;
-#endif
-
-/// Runs a function on a thread with so much stack. A thread that needs more ends the process.
-template <class Function>
-void on_small_stack(Function function) {
-  pthread_attr_t attributes;
-  REQUIRE(pthread_attr_init(&attributes) == 0);
-  REQUIRE(pthread_attr_setstacksize(&attributes, stack_bytes) == 0);
-  pthread_t thread{};
-  const auto start = [](void* argument) -> void* {
-    (*static_cast<Function*>(argument))();
-    return nullptr;
-  };
-  REQUIRE(pthread_create(&thread, &attributes, start, &function) == 0);
-  REQUIRE(pthread_join(thread, nullptr) == 0);
-  pthread_attr_destroy(&attributes);
-}
 
 std::vector<std::filesystem::path> example_scripts() {
   std::vector<std::filesystem::path> scripts;
@@ -94,7 +70,7 @@ TEST_CASE("threads with 256 kB of stack run scripts, prepare, render and ask ray
   for (const std::filesystem::path& script : example_scripts()) {
     CAPTURE(script.string());
     for (const char* precision : {"\"standard\"", "\"exact\""}) {
-      on_small_stack([&] {
+      on_small_stack(enough_stack, [&] {
         const SceneHandle scene = small_scene_of(script, precision);
         const PreparedHandle prepared = prepare(scene.get());
         crt_render_options options;
@@ -114,7 +90,7 @@ TEST_CASE("threads with 256 kB of stack write and read pictures of every format"
   const ImageHandle image = render(prepared.get());
   for (const char* format : {"png", "tif", "jpg", "bmp", "ppm", "exr", "hdr"}) {
     CAPTURE(format);
-    on_small_stack([&] {
+    on_small_stack(enough_stack, [&] {
       const BufferHandle file = made<BufferHandle>(
           [&](crt_buffer** out) { return crt_image_encode(image.get(), format, nullptr, out); });
       const ImageHandle again = made<ImageHandle>([&](crt_image** out) {

@@ -11,9 +11,11 @@
 #include "crt/query.hpp"
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::core;
+using crt::test::scene_of;
 
 namespace {
 
@@ -35,13 +37,6 @@ HeightField ramp() {
 
 std::uint32_t face_of(std::uint32_t column, std::uint32_t row) {
   return HeightFacets::first_of_cells + 2 * (row * (side - 1) + column);
-}
-
-PreparedScene scene_of(const Entity& entity, Precision tier) {
-  Scene scene;
-  scene.entities = {entity};
-  scene.settings.precision = tier;
-  return prepare(scene);
 }
 
 }  // namespace

@@ -32,6 +32,7 @@
 #include "geometry/profiles.hpp"
 #include "geometry/random_fields.hpp"
 #include "geometry/turned_profiles.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -164,13 +165,6 @@ void check_enclosed(const Crossings& crossings, const core::Enclosure<double>& p
 
 Transform scaling(double factor) {
   return {{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}, {0, 0, 0}};
-}
-
-PreparedScene scene_of(const Entity& entity, Precision precision = Precision::standard) {
-  Scene scene;
-  scene.entities = {entity};
-  scene.settings.precision = precision;
-  return prepare(scene);
 }
 
 /// Returns how far apart two lengths of this instance may be that are equal but for rounding.

@@ -10,20 +10,12 @@
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
 #include "geometry/profiles.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-constexpr Precision tiers[] = {Precision::standard, Precision::exact};
-
-PreparedScene scene_of(const Entity& entity, Precision precision) {
-  Scene scene;
-  scene.entities = {entity};
-  scene.settings.precision = precision;
-  return prepare(scene);
-}
 
 Entity extrusion(const std::vector<Contour>& contours, double from, double to) {
   return Extrusion{.profile = make_profile(contours), .from = from, .to = to};
@@ -61,6 +53,34 @@ void check_equal(const Entity& a, const Entity& b, Precision precision, int rays
 }
 
 }  // namespace
+
+TEST_CASE("an arc that is written from its other end cuts flush, and leaves no film") {
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    const double x = random.uniform(-10, 10);
+    const double y = random.uniform(-10, 10);
+    const ProfilePoint to{x + random.uniform(0.1, 1), y + random.uniform(-1, 1),
+                          random.uniform(0.3, 1)};
+    const Contour contour = {{x, y}, to};
+    const Contour reversed = {{to.x, to.y}, {x, y, -to.bulge}};
+    const Entity solid = extrusion({contour}, 0, 1);
+    for (const Precision tier : tiers) {
+      const PreparedScene whole = scene_of(solid, tier);
+      const PreparedScene less = scene_of(solid - extrusion({reversed}, 0, 1), tier);
+      const PreparedScene twice = scene_of(extrusion({contour, reversed}, 0, 1), tier);
+      int hits = 0;
+      for (int k = 0; k < 20; ++k) {
+        const double share = random.uniform(0, 1);
+        const Vec3 aim(x + share * (to.x - x), y + share * (to.y - y), random.uniform(0.1, 0.9));
+        const Ray ray{.origin = aim, .direction = random.in_cube(), .t_min = -1e6};
+        hits += crossings(whole, ray).empty() ? 0 : 1;
+        REQUIRE(crossings(less, ray).empty());
+        REQUIRE(crossings(twice, ray).empty());
+      }
+      CHECK(hits == 20);
+    }
+  }
+}
 
 TEST_CASE("an extrusion that is flush with a box opens it, and fills what it has opened") {
   const Entity block = Box{.corner_a = {0, 0, 0}, .corner_b = {4, 4, 2}};

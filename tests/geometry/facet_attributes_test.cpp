@@ -17,6 +17,7 @@
 #include "crt/scene.hpp"
 #include "crt/transform.hpp"
 #include "geometry/meshes.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -25,8 +26,6 @@ namespace {
 
 constexpr double float_rounding = 1e-6;
 constexpr double degree = std::numbers::pi / 180;
-constexpr Precision tiers[] = {Precision::standard, Precision::exact};
-
 using Uv = std::array<double, 2>;
 
 std::shared_ptr<const MeshTriangles> mesh_of(const TriangleList& list,
@@ -73,20 +72,13 @@ MeshAttributes with_affine_uv(const TriangleList& list) {
   return attributes;
 }
 
-Scene scene_of(const Entity& entity, Precision precision) {
-  Scene scene;
-  scene.entities = {entity};
-  scene.settings.precision = precision;
-  return scene;
-}
-
 /// Checks (u, v) of all hits by rays through places near the origin, where `is_of_mesh` says so.
 /// The mesh has been scaled.
 template <class IsOfMesh>
 void check_affine_uv(const Entity& entity, Precision precision, const Vec3& scale,
                      const IsOfMesh& is_of_mesh) {
   Random random(7);
-  const PreparedScene scene = prepare(scene_of(entity, precision));
+  const PreparedScene scene = scene_of(entity, precision);
   int checked = 0;
   for (int i = 0; i < 300; ++i) {
     const Vec3 aim = random.in_cube();
@@ -240,7 +232,7 @@ TEST_CASE("a triangle with a corner without (u, v) has its weights") {
   attributes.uv = {{7, 7}};
   attributes.uv_indices = {{0, no_index, 0}};
   const Entity entity = triangle_mesh(one_triangle.positions, one_triangle.triangles, attributes);
-  const auto hit = intersect(prepare(scene_of(entity, Precision::standard)),
+  const auto hit = intersect(scene_of(entity, Precision::standard),
                              {.origin = {0.25, 0.5, -1}, .direction = {0, 0, 1}});
   REQUIRE(hit.has_value());
   CHECK(hit->u == 0.25);
@@ -253,8 +245,8 @@ TEST_CASE("normals change no answer of queries") {
   const Entity plain = list.entity();
   const Entity smooth = triangle_mesh(list.positions, list.triangles, {.smooth = 3});
   for (const Precision precision : tiers) {
-    const PreparedScene one = prepare(scene_of(plain, precision));
-    const PreparedScene other = prepare(scene_of(smooth, precision));
+    const PreparedScene one = scene_of(plain, precision);
+    const PreparedScene other = scene_of(smooth, precision);
     for (int i = 0; i < 200; ++i) {
       const Ray ray = {.origin = 3.0 * random.in_cube(), .direction = random.in_cube()};
       const std::vector<Hit> expected = crossings(one, ray);

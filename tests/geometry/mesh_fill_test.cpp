@@ -20,28 +20,14 @@
 #include "geometry/cuboids.hpp"
 #include "geometry/line_checks.hpp"
 #include "geometry/meshes.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
 
-constexpr Precision tiers[] = {Precision::standard, Precision::exact};
 constexpr FillRule rules[] = {FillRule::even_odd, FillRule::nonzero};
-
-PreparedScene scene_of(const Entity& entity, Precision precision = Precision::standard) {
-  Scene scene;
-  scene.entities = {entity};
-  scene.settings.precision = precision;
-  return prepare(scene);
-}
-
-void add(TriangleList& list, const TriangleList& other, const Vec3& place, double scale) {
-  const auto first = static_cast<std::uint32_t>(list.positions.size());
-  for (const Vec3& position : other.positions) list.positions.push_back(place + scale * position);
-  for (const auto& [a, b, c] : other.triangles)
-    list.triangles.push_back({first + a, first + b, first + c});
-}
 
 Entity filled(const TriangleList& list, FillRule fill) {
   return triangle_mesh(list.positions, list.triangles, {}, {.fill = fill});
@@ -231,7 +217,7 @@ TEST_CASE("what is left out after the first crossing changes nothing where windi
     TriangleList mesh;
     const int count = 2 + round % 4;
     for (int i = 0; i < count; ++i)
-      add(mesh, ball_mesh(random, 4, 0.1), 0.8 * random.in_cube(), random.uniform(0.2, 1));
+      mesh.add(ball_mesh(random, 4, 0.1), 0.8 * random.in_cube(), random.uniform(0.2, 1));
     const Primitive primitive = Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles, {},
                                                                  {.fill = FillRule::nonzero})};
     const auto shape = core::make_shape(primitive);
@@ -271,7 +257,7 @@ TEST_CASE(
   for (int round = 0; round < 60; ++round) {
     TriangleList mesh;
     for (int i = 0; i < 3; ++i)
-      add(mesh, ball_mesh(random, 3, 0.1), 0.7 * random.in_cube(), random.uniform(0.3, 1));
+      mesh.add(ball_mesh(random, 3, 0.1), 0.7 * random.in_cube(), random.uniform(0.3, 1));
     if (round % 3 == 0) mesh = mesh_of(random_cuboids(random, false));
     const Primitive primitive = Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles, {},
                                                                  {.fill = FillRule::nonzero})};

@@ -6,31 +6,14 @@
 #include <cmath>
 #include <vector>
 
-#include "crt/prepared_scene.hpp"
 #include "crt/query.hpp"
-#include "crt/scene.hpp"
-#include "geometry/meshes.hpp"
-#include "geometry/oracle.hpp"
+#include "geometry/cuboids.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-/// Adds a box with its triangles wound as seen from outside.
-void add_box(TriangleList& list, const Vec3& low, const Vec3& high) {
-  const auto at = [&](int corner) {
-    return Vec3((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-                (corner & 4) != 0 ? high.z : low.z);
-  };
-  const auto add = [&](int a, int b, int c, int d) { list.add_quad(at(a), at(b), at(c), at(d)); };
-  add(0, 4, 6, 2);
-  add(1, 3, 7, 5);
-  add(0, 1, 5, 4);
-  add(2, 6, 7, 3);
-  add(0, 2, 3, 1);
-  add(4, 5, 7, 6);
-}
 
 /// Returns what is left of places by the even-odd rule: those that are there an odd number of
 /// times, in order.
@@ -66,12 +49,9 @@ TEST_CASE("a mesh of the exact tier has gaps and pieces whose ends round to one 
       const double from = near_one();
       add(from, from + 0x1p-52 * static_cast<double>(1 + random.bits() % 8));
     }
-    Scene scene;
-    scene.entities = {mesh.entity()};
-    scene.settings.precision = Precision::exact;
     const double origin = -std::ldexp(1.0, static_cast<int>(random.bits() % 40));
     const std::vector<Hit> hits = crossings(
-        prepare(scene),
+        scene_of(mesh.entity(), Precision::exact),
         {.origin = {origin, random.uniform(-1, 1), random.uniform(-1, 1)}, .direction = {1, 0, 0}});
     const std::vector<double> expected = odd_places(places);
     CAPTURE(i);

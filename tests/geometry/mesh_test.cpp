@@ -9,7 +9,6 @@
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/shape.hpp"
-#include "core/math/vector.hpp"
 #include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/query.hpp"
@@ -17,70 +16,18 @@
 #include "crt/transform.hpp"
 #include "geometry/line_checks.hpp"
 #include "geometry/meshes.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
 
-PreparedScene scene_of(const Entity& entity, Precision precision = Precision::standard) {
-  Scene scene;
-  scene.entities = {entity};
-  scene.settings.precision = precision;
-  return prepare(scene);
-}
-
-constexpr Precision tiers[] = {Precision::standard, Precision::exact};
-
-/// Returns a ray that meets a mesh where that is hardest: through corners, along edges and in the
-/// planes of triangles, often by whole numbers.
-Ray hard_ray(Random& random, const TriangleList& mesh) {
-  const TriangleIndices& triangle = mesh.triangles[random.bits() % mesh.triangles.size()];
-  const Vec3 a = mesh.positions[triangle[0]];
-  const Vec3 b = mesh.positions[triangle[1]];
-  const Vec3 c = mesh.positions[triangle[2]];
-  const auto whole = [&] { return static_cast<double>(random.bits() % 3) - 1; };
-  Vec3 aim = a;
-  Vec3 direction = random.in_cube();
-  switch (random.bits() % 6) {
-    case 0:
-      aim = 2.0 * random.in_cube();
-      break;
-    case 1:
-      break;
-    case 2:
-      aim = 0.5 * (a + b);
-      break;
-    case 3:
-      aim = a + whole() * (b - a) + random.uniform(-1, 2) * (c - a);
-      direction = whole() * (b - a) + random.uniform(-1, 1) * (c - a);
-      break;
-    case 4:
-      direction = {whole(), whole(), whole()};
-      break;
-    default:
-      direction = b - a;
-      break;
-  }
-  if (core::largest_component(direction) == 0) direction.z = 1;
-  const double back = random.one_in(2) ? 8 : random.uniform(0, 8);
-  return {.origin = aim - back * direction, .direction = direction, .t_min = -1e6};
-}
-
-/// Adds another mesh, moved and scaled.
-void add(TriangleList& list, const TriangleList& other, const Vec3& place, double scale) {
-  const auto first = static_cast<std::uint32_t>(list.positions.size());
-  for (const Vec3& position : other.positions) list.positions.push_back(place + scale * position);
-  for (const auto& [a, b, c] : other.triangles) {
-    list.triangles.push_back({first + a, first + b, first + c});
-  }
-}
-
 /// Returns a mesh of several parts, side by side, in one another or passing through one another.
 TriangleList parts(Random& random, int count) {
   TriangleList list;
   for (int i = 0; i < count; ++i) {
-    add(list, random_mesh(random), 1.5 * random.in_cube(), random.uniform(0.1, 1));
+    list.add(random_mesh(random), 1.5 * random.in_cube(), random.uniform(0.1, 1));
   }
   return list;
 }
@@ -302,20 +249,20 @@ TEST_CASE(
   CHECK(count(voxels, Facing::outwards) == voxels.triangles.size());
   SUBCASE("a ball in a ball is a hole") {
     TriangleList nested = ball;
-    add(nested, ball, {0.1, 0, 0}, 0.5);
+    nested.add(ball, {0.1, 0, 0}, 0.5);
     CHECK(count(nested, Facing::outwards) == size);
     CHECK(count(nested, Facing::inwards) == size);
   }
   SUBCASE("balls that pass through one another have triangles on both sides of each other") {
     TriangleList chain = ball;
-    add(chain, ball, {0.8, 0, 0}, 1);
+    chain.add(ball, {0.8, 0, 0}, 1);
     CHECK(count(chain, Facing::unknown) > 10);
     CHECK(count(chain, Facing::inwards) > size / 5);
     CHECK(count(chain, Facing::outwards) > size);
   }
   SUBCASE("two meshes in one place say nothing, nor does one whose triangles are turned") {
     TriangleList twice = ball;
-    add(twice, ball, {0, 0, 0}, 1);
+    twice.add(ball, {0, 0, 0}, 1);
     CHECK(count(twice, Facing::unknown) == 2 * size);
     TriangleList turned = ball;
     std::swap(turned.triangles[7][0], turned.triangles[7][1]);

@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <vector>
 
+#include "core/math/vector.hpp"
 #include "crt/entity.hpp"
+#include "crt/ray.hpp"
 #include "geometry/random.hpp"
 
 namespace crt::test {
@@ -22,6 +25,13 @@ struct TriangleList {
     positions.insert(positions.end(), {a, b, c, d});
     triangles.push_back({first, first + 1, first + 2});
     triangles.push_back({first, first + 2, first + 3});
+  }
+  /// Adds another list, scaled and moved.
+  void add(const TriangleList& other, const Vec3& place, double scale) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (const Vec3& position : other.positions) positions.push_back(place + scale * position);
+    for (const auto& [a, b, c] : other.triangles)
+      triangles.push_back({first + a, first + b, first + c});
   }
 };
 
@@ -148,6 +158,42 @@ inline TriangleList random_mesh(Random& random) {
     default:
       return ball_mesh(random, 3, 0.1, {1, random.power_of_ten(-9, 0), 1});
   }
+}
+
+/// Returns a ray that meets triangles where that is hardest: through corners, along edges and in
+/// their planes, often by whole numbers.
+inline Ray hard_ray(Random& random, const TriangleList& mesh) {
+  const TriangleIndices& triangle = mesh.triangles[random.bits() % mesh.triangles.size()];
+  const Vec3 a = mesh.positions[triangle[0]];
+  const Vec3 b = mesh.positions[triangle[1]];
+  const Vec3 c = mesh.positions[triangle[2]];
+  const auto whole = [&] { return static_cast<double>(random.bits() % 3) - 1; };
+  Vec3 aim = a;
+  Vec3 direction = random.in_cube();
+  switch (random.bits() % 6) {
+    case 0:
+      aim = mesh.positions[random.bits() % mesh.positions.size()] + random.in_cube();
+      break;
+    case 1:
+      break;
+    case 2:
+      aim = 0.5 * (a + b);
+      break;
+    case 3:
+      aim = a + whole() * (b - a) + random.uniform(-1, 2) * (c - a);
+      direction = whole() * (b - a) + random.uniform(-1, 1) * (c - a);
+      break;
+    case 4:
+      direction = {whole(), whole(), whole()};
+      break;
+    default:
+      direction = b - a;
+      break;
+  }
+  if (core::largest_component(direction) == 0) direction.z = 1;
+  const double back = random.one_in(2) ? 8 : random.uniform(0, 8);
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  return {.origin = aim - back * direction, .direction = direction, .t_min = -endless};
 }
 
 }  // namespace crt::test

@@ -2,9 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
+#include "core/math/dyadic.hpp"
 #include "crt/entity.hpp"
 #include "geometry/profiles.hpp"
 
@@ -26,6 +30,34 @@ std::string fault(const std::vector<Contour>& contours) {
 }
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns one of the doubles next to a number, as far as half the way to it.
+core::Dyadic half_way(double x, double towards) {
+  return core::Dyadic(0.5) * (core::Dyadic(x) + core::Dyadic(std::nextafter(x, towards)));
+}
+
+/// Returns whether no double is nearer to a truth, of which a function says the sign of a number
+/// less it.
+template <class Less>
+bool is_nearest(double x, const Less& sign_of_rest) {
+  return sign_of_rest(half_way(x, -HUGE_VAL)) <= 0 && sign_of_rest(half_way(x, HUGE_VAL)) >= 0;
+}
+
+/// Returns an arc between points of which many are such that the center or the radius is half way
+/// between two doubles.
+Contour random_arc(Random& random) {
+  const auto number = [&](double size) {
+    const double x = random.uniform(-size, size);
+    return random.one_in(2) ? std::round(0x1p53 * x) * 0x1p-53 : x;
+  };
+  const double middle = random.one_in(3) ? 100 : 1;
+  const ProfilePoint from{.x = middle + number(1), .y = random.one_in(2) ? 0 : middle + number(1)};
+  const double bulge = random.one_in(2) ? random.uniform(0.1, 5)
+                                        : std::array{0.5, 1.0, 2.0, 3.0, 5.0}[random.bits() % 5];
+  ProfilePoint to{.x = from.x + bulge * number(0x1p-3), .y = from.y + bulge * number(0x1p-3)};
+  to.bulge = random.one_in(2) ? bulge : -bulge;
+  return {from, to};
+}
 
 }  // namespace
 
@@ -104,6 +136,52 @@ TEST_CASE("half and quarter circles have their center and radius exactly") {
     }
     CHECK(whole->bounds().lower == Vec3(1.5, -3.5, 0));
     CHECK(whole->bounds().upper == Vec3(2.5, -2.5, 0));
+  }
+}
+
+TEST_CASE("the center and the radius of an arc are the nearest doubles") {
+  using core::Dyadic;
+  Random random(4);
+  for (int i = 0; i < 20000; ++i) {
+    const Contour contour = random_arc(random);
+    const Profile::Arc arc = profile_of({contour})->arcs()[0];
+    const Dyadic bulge = contour[1].bulge;
+    const Dyadic x = Dyadic(contour[1].x) - Dyadic(contour[0].x);
+    const Dyadic y = Dyadic(contour[1].y) - Dyadic(contour[0].y);
+    // The center is half way from corner to corner, and to the left by (1 - b^2) / 4 b chords.
+    const auto check_center = [&](double found, double from, double to, const Dyadic& across) {
+      return is_nearest(found, [&](const Dyadic& place) {
+        const Dyadic moved = Dyadic(2) * place - Dyadic(from) - Dyadic(to);
+        return (Dyadic(2) * bulge * moved - (Dyadic(1) - square(bulge)) * across).sign() *
+               bulge.sign();
+      });
+    };
+    REQUIRE(check_center(arc.center.x, contour[0].x, contour[1].x, -y));
+    REQUIRE(check_center(arc.center.y, contour[0].y, contour[1].y, x));
+    // The radius is (1 + b^2) / 4 |b| chords.
+    const Dyadic chords = square(Dyadic(1) + square(bulge)) * (square(x) + square(y));
+    REQUIRE(is_nearest(arc.radius, [&](const Dyadic& radius) {
+      return (square(Dyadic(4) * bulge * radius) - chords).sign();
+    }));
+  }
+}
+
+TEST_CASE("an arc and its reverse, and the halves of a circle, are on one circle") {
+  Random random(5);
+  for (int i = 0; i < 20000; ++i) {
+    Contour contour = random_arc(random);
+    if (random.one_in(3)) {
+      // This is a quarter, but for the rounding of its corners.
+      const double radius = contour[1].x - contour[0].x;
+      contour[1].y = contour[0].y + radius;
+      contour[1].bulge = std::numbers::sqrt2 + (random.one_in(2) ? -1 : 1);
+    }
+    const auto [from, to] = std::array{contour[0], contour[1]};
+    const Contour reversed = {{to.x, to.y}, {from.x, from.y, -to.bulge}};
+    const auto arcs = profile_of({contour, reversed})->arcs();
+    REQUIRE(arcs[1].first == 0);
+    const auto halves = profile_of({circle(from.x, to.y, to.bulge)})->arcs();
+    REQUIRE(halves[1].first == 0);
   }
 }
 

@@ -12,13 +12,12 @@
 #include "crt/transform.hpp"
 #include "geometry/meshes.hpp"
 #include "render/pictures.hpp"
+#include "support/scene_of.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-constexpr Precision tiers[] = {Precision::standard, Precision::exact};
 
 /// Returns a ball of 8 n^2 triangles, whose normals are those of the sphere.
 Entity smooth_ball(int n, MeshAttributes attributes = {}) {

@@ -1,17 +1,17 @@
 // No script hangs or exhausts its host. Every limit ends in an ordinary error that says where.
 #include <doctest/doctest.h>
 
-#include <pthread.h>
-
 #include <string>
 
 #include "run.hpp"
+#include "support/small_stack.hpp"
 
 namespace {
 
 using crt::ErrorCode;
 using crt::ScriptLimits;
 using crt::ScriptOptions;
+using crt::test::on_small_stack;
 using crt::test::run;
 using crt::test::run_statements;
 
@@ -32,25 +32,6 @@ bool ends_in_limit(const std::string& text, const ScriptOptions& options,
   const bool found = result.errors()[0].message.find(words) != std::string::npos;
   CHECK(found);
   return found;
-}
-
-/// Runs a function on a thread with a stack of a given size.
-template <class Function>
-void on_small_stack(std::size_t bytes, Function function) {
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-  bytes *= 8;  // what a sanitizer adds to every frame is not ours
-#endif
-  pthread_attr_t attributes;
-  REQUIRE(pthread_attr_init(&attributes) == 0);
-  REQUIRE(pthread_attr_setstacksize(&attributes, bytes) == 0);
-  pthread_t thread{};
-  const auto start = [](void* argument) -> void* {
-    (*static_cast<Function*>(argument))();
-    return nullptr;
-  };
-  REQUIRE(pthread_create(&thread, &attributes, start, &function) == 0);
-  REQUIRE(pthread_join(thread, nullptr) == 0);
-  pthread_attr_destroy(&attributes);
 }
 
 std::string repeated(const std::string& piece, int times) {

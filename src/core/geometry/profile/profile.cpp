@@ -70,24 +70,29 @@ double arc_by_chord(double bulge) {
   return 2 * std::numbers::pi * quarter_turn(1.0, size) * (1 / size + size);
 }
 
-/// Finds the circle of an arc, if doubles can say it.
+/// Finds the circle of an arc, if doubles can say it. It is the same for the reversed arc.
 std::optional<Profile::Arc> arc_between(const Vec3& from, const Vec3& to, double bulge) {
   Profile::Arc arc{.is_right = bulge > 0};
   const PreciseStep chord(from, to);
+  const DoubleDouble squared_chord = chord.squared_length();
   const DoubleDouble one = 1.0;
-  const DoubleDouble height =
-      (one - two_product(bulge, bulge)) / DoubleDouble(4 * bulge);  // of the center, in chords
   const DoubleDouble half = 0.5;
-  const DoubleDouble x = DoubleDouble(from.x) + half * chord.x - chord.y * height;
-  const DoubleDouble y = DoubleDouble(from.y) + half * chord.y + chord.x * height;
+  const DoubleDouble squared_bulge = two_product(bulge, bulge);
+  const DoubleDouble height =
+      (one - squared_bulge) / DoubleDouble(4 * bulge);  // of the center, in chords
+  const DoubleDouble x = half * two_sum(from.x, to.x) - chord.y * height;
+  const DoubleDouble y = half * two_sum(from.y, to.y) + chord.x * height;
   arc.center = {x.value(), y.value(), 0};
+  const DoubleDouble radius_by_chord = (one + squared_bulge) / DoubleDouble(4 * std::abs(bulge));
+  arc.radius = (sqrt(squared_chord) * radius_by_chord).value();
   const double moved = std::max(std::abs(x.lo), std::abs(y.lo));
-  const double rough_radius = glm::length(arc.center - from);
   constexpr double nearly = 0x1p-48;
   for (const Vec3& center : {Vec3(from.x, to.y, 0), Vec3(to.x, from.y, 0)}) {
-    if (largest_component(center - arc.center) <= nearly * rough_radius) arc.center = center;
+    if (largest_component(center - arc.center) > nearly * arc.radius) continue;
+    arc.center = center;
+    arc.radius = sqrt(half * squared_chord).value();  // of a quarter
+    break;
   }
-  arc.radius = sqrt(PreciseStep(arc.center, from).squared_length()).value();
   double off = 0;
   for (const Vec3& corner : {from, to}) {
     const DoubleDouble squares =
@@ -97,8 +102,7 @@ std::optional<Profile::Arc> arc_between(const Vec3& from, const Vec3& to, double
   // The chord's line and the circle meet at an angle whose sine is half a chord by the radius.
   constexpr double least_margin = 0x1p-40;
   constexpr double safety = 8;
-  const double squared_chord = chord.squared_length().value();
-  const double by_distance = safety * (arc.radius / squared_chord);
+  const double by_distance = safety * (arc.radius / squared_chord.value());
   arc.margin = least_margin + by_distance * off;
   constexpr double largest_margin = 0x1p-6;
   if (!(by_distance * std::max(off, moved) < largest_margin)) return std::nullopt;
