@@ -127,13 +127,8 @@ void TurnedWalls::append() {
     walls_.resize(before);
     open_.push_back(piece);
   }
-  const bool has_arc = std::any_of(
-      candidates_.begin(), candidates_.end(),
-      [&](std::uint32_t piece) { return profile_.pieces()[piece].arc != Profile::no_arc; });
-  // Where an arc is among them, walls that are found in two ways may be in the wrong order.
-  const bool takes_all = has_arc && !open_.empty();
-  if (!takes_all) meet_exactly(open_);
-  if (takes_all || (!are_even() && open_.size() < candidates_.size())) {
+  meet_exactly(open_);
+  if (!are_even() && open_.size() < candidates_.size()) {
     walls_.clear();
     meet_exactly(candidates_);
   }
@@ -155,15 +150,19 @@ TurnedWall& TurnedWalls::add(const Crossing& crossing, std::uint32_t face, Shift
 /// Returns whether the line passes a corner of a piece so near that only exact arithmetic says
 /// which walls it crosses there. It may touch them in the corner alone, along a wall, and see
 /// nothing of that. It may pass between the corner that an arc has and its circle, too, and cross
-/// its chord there.
+/// its chord there. And a body that the line leaves beside the corner at once is not seen, nor is
+/// one of no height.
 bool TurnedWalls::passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const {
-  const double gap = piece.arc == Profile::no_arc ? 0
-                                                  : profile_.arcs()[piece.arc].margin *
-                                                        largest_component(piece.to - piece.from);
+  const Vec3 along = piece.to - piece.from;
+  const double gap = piece.arc == Profile::no_arc
+                         ? 0
+                         : profile_.arcs()[piece.arc].margin * largest_component(along);
   const auto passes = [&](const Vec3& corner) {
-    return search.is_along(corner) || search.comes_near(Bounds{corner, corner}.grown(gap));
+    return search.is_along(corner) ||
+           search.comes_near(Bounds{corner, corner}.grown(gap + search.shortest()));
   };
-  return passes(piece.from) || passes(piece.to);
+  const bool is_thin = along.y != 0 && std::abs(along.y) <= search.shortest();
+  return is_thin || passes(piece.from) || passes(piece.to);
 }
 
 /// Returns whether both lines cross an even number of walls.
