@@ -2,118 +2,90 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "core/math/near_polynomial.hpp"
 
 namespace crt::core {
 
 namespace {
 
-using RoughPolynomial = std::vector<double>;
-
-double value_of(const RoughPolynomial& polynomial, double x) {
-  double sum = 0;
-  for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * x + polynomial[i];
-  return sum;
-}
-
-RoughPolynomial derivative_of(const RoughPolynomial& polynomial) {
-  RoughPolynomial result;
-  for (std::size_t i = 1; i < polynomial.size(); ++i) {
-    result.push_back(static_cast<double>(i) * polynomial[i]);
-  }
-  return result;
-}
-
-/// Returns a polynomial of at least degree 1 in doubles, times a power of two.
-RoughPolynomial rough(const DyadicPolynomial& polynomial) {
-  std::vector<ScaledNumber> rounded;
-  int largest = std::numeric_limits<int>::min();
-  for (int i = 0; i <= polynomial.degree(); ++i) {
-    rounded.push_back(polynomial.coefficient(static_cast<std::size_t>(i)).rounded());
-    if (rounded.back().value.hi != 0) largest = std::max(largest, rounded.back().exponent);
-  }
-  RoughPolynomial result;
-  for (const ScaledNumber& number : rounded) {
-    result.push_back(std::ldexp(number.value.hi, number.exponent - largest));
-  }
-  return result;
-}
-
-/// Returns roots in doubles, each between two neighbours of the derivative's. They are as good as
-/// rounding lets them be, and some may be lost.
-std::vector<double> rough_roots(const RoughPolynomial& polynomial) {
-  if (polynomial.size() < 2) return {};
-  const double leading = polynomial.back();
-  if (polynomial.size() == 2) return {-polynomial[0] / leading};
-  double bound = 0;
-  for (const double coefficient : polynomial) bound = std::max(bound, std::abs(coefficient));
-  bound = 1 + bound / std::abs(leading);
-  std::vector<double> ends = rough_roots(derivative_of(polynomial));
-  ends.insert(ends.begin(), -bound);
-  ends.push_back(bound);
-  std::vector<double> roots;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    double low = ends[i];
-    double high = ends[i + 1];
-    const bool is_below = value_of(polynomial, low) < 0;
-    if (is_below == (value_of(polynomial, high) < 0)) continue;
-    constexpr int most_steps = 200;
-    for (int step = 0; step < most_steps; ++step) {
-      const double split = low + 0.5 * (high - low);
-      if (!(split > low && split < high)) break;
-      ((value_of(polynomial, split) < 0) == is_below ? low : high) = split;
-    }
-    roots.push_back(low);
-  }
-  return roots;
-}
-
-/// Returns whether some root may have a multiplicity of three: there the slope is next to nothing.
-bool may_be_multiple(const RoughPolynomial& polynomial, const std::vector<double>& roots) {
-  const RoughPolynomial slope = derivative_of(polynomial);
-  return std::any_of(roots.begin(), roots.end(), [&](double root) {
-    double size = 0;
-    for (std::size_t i = slope.size(); i-- > 0;) {
-      size = size * std::abs(root) + std::abs(slope[i]);
-    }
-    constexpr double plainly = 0x1p-20;
-    return !(std::abs(value_of(slope, root)) > plainly * size);
-  });
-}
-
 using Brackets = std::vector<IsolatedRoots::Bracket>;
 
-/// Guesses brackets of `count` roots from roots in doubles. Returns none if that fails, or if some
-/// root may be a multiple one. As the sign changes in all brackets, and there are no more roots,
-/// each has one.
-Brackets guessed_brackets(const DyadicPolynomial& polynomial, std::size_t count) {
-  const RoughPolynomial doubles = rough(polynomial);
-  const std::vector<double> roots = rough_roots(doubles);
-  if (roots.size() != count || may_be_multiple(doubles, roots)) return {};
-  const double largest = std::max(std::abs(roots.front()), std::abs(roots.back()));
-  constexpr double share = 0x1p-40;
-  const double margin = share * (largest > 0 ? largest : 1);
-  if (!std::isfinite(largest)) return {};
-  Brackets brackets;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0 && !(roots[i] - roots[i - 1] > 4 * margin)) return {};
-    const Dyadic low = roots[i] - margin;
-    const Dyadic high = roots[i] + margin;
-    if (polynomial.value(low).sign() * polynomial.value(high).sign() >= 0) return {};
-    brackets.push_back({low, high});
-  }
-  return brackets;
-}
+/// A SignsNear has the signs of a polynomial at numbers of two doubles, by which it makes brackets.
+class SignsNear {
+ public:
+  SignsNear(const DyadicPolynomial& polynomial, const NearPolynomial& near)
+      : polynomial_(polynomial), near_(near), slope_(near.derivative()) {}
 
-/// Finds brackets of `count` roots, each of which changes the sign.
-Brackets brackets_of(const DyadicPolynomial& polynomial, std::size_t count) {
-  Brackets brackets = guessed_brackets(polynomial, count);
-  if (!brackets.empty()) return brackets;
-  const std::vector<Dyadic> separators = root_separators(polynomial);
-  for (std::size_t i = 1; i < separators.size(); ++i) {
-    brackets.push_back({separators[i - 1], separators[i]});
+  /// Returns brackets that make all changes of the sign which it finds.
+  Brackets brackets() const {
+    std::vector<DoubleDouble> ends{-1};
+    if (near_.degree() > 1) {
+      for (const DoubleDouble& turn : slope_.roots()) ends.push_back(turn);
+    }
+    ends.emplace_back(1);
+    const int last = near_.sign_of_leading();
+    int sign = near_.degree() % 2 == 0 ? last : -last;
+    Brackets found;
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const int before = sign;
+      sign = i + 1 < ends.size() ? sign_at(ends[i]) : last;
+      if (before * sign < 0) found.push_back(narrowed(ends[i - 1], ends[i], before));
+    }
+    return found;
   }
+
+ private:
+  Dyadic place(const DoubleDouble& y) const {
+    const Dyadic unit(std::ldexp(1.0, near_.exponent()));
+    return unit * (Dyadic(y.hi) + Dyadic(y.lo));
+  }
+
+  int sign_at(const DoubleDouble& y) const {
+    const int sign = near_.value(y).certain_sign();
+    return sign != 0 ? sign : polynomial_.value(place(y)).sign();
+  }
+
+  /// Returns a narrow bracket of a change of the sign between two places. It is no wider than they
+  /// are apart.
+  IsolatedRoots::Bracket narrowed(DoubleDouble low, DoubleDouble high, int sign_low) const {
+    const DoubleDouble y = near_.root_between(slope_, low, high, sign_low);
+    const Bounded height = near_.value(y);
+    constexpr double roundings = 16;
+    constexpr double least = 0x1p-500;
+    double off = roundings * (height.size() + height.error) / std::abs(slope_.value(y).value.hi) +
+                 roundings * 0x1p-104 * std::abs(y.hi) + least;
+    constexpr int most_tries = 4;
+    constexpr double widening = 0x1p12;
+    for (int i = 0; i < most_tries && off < 1; ++i, off *= widening) {
+      const DoubleDouble from = y - DoubleDouble(off);
+      const DoubleDouble to = y + DoubleDouble(off);
+      if (!((from - low).hi > 0 && (high - to).hi > 0)) break;
+      const int sign_from = sign_at(from);
+      const int sign_to = sign_at(to);
+      if (sign_from == sign_low && sign_to == -sign_low) {
+        return {place(from), place(to)};
+      }
+      if (sign_from == -sign_low) high = from;
+      if (sign_to == sign_low) low = to;
+    }
+    return {place(low), place(high)};
+  }
+
+  const DyadicPolynomial& polynomial_;
+  const NearPolynomial& near_;
+  NearPolynomial slope_;
+};
+
+/// Returns brackets of `count` roots if a look in double-double finds them, and else none. As the
+/// sign changes in all brackets, and there are no more roots, each has one.
+Brackets guessed_brackets(const DyadicPolynomial& polynomial, const NearPolynomial& near,
+                          std::size_t count) {
+  constexpr int largest_exponent = 400;
+  if (std::abs(near.exponent()) > largest_exponent) return {};
+  Brackets brackets = SignsNear(polynomial, near).brackets();
+  if (brackets.size() != count) brackets.clear();
   return brackets;
 }
 
@@ -133,14 +105,24 @@ DyadicPolynomial exact_quotient(DyadicPolynomial a, const DyadicPolynomial& b) {
 }  // namespace
 
 IsolatedRoots isolated_roots(const DyadicPolynomial& polynomial) {
+  if (polynomial.degree() < 1) return {};
+  const NearPolynomial near(polynomial);
+  if (const auto count = count_simple_roots(polynomial, near)) {
+    Brackets guessed = guessed_brackets(polynomial, near, *count);
+    if (guessed.size() == *count) return {polynomial, std::move(guessed)};
+  }
   const auto count = static_cast<std::size_t>(SturmChain(polynomial).count());
   if (count == 0) return {};
-  Brackets guessed = guessed_brackets(polynomial, count);
-  if (!guessed.empty()) return {polynomial, std::move(guessed)};
-  const DyadicPolynomial common = common_divisor(polynomial, polynomial.derivative());
   // Roots of a high multiplicity would take long to find.
+  const DyadicPolynomial common = common_divisor(polynomial, polynomial.derivative());
   DyadicPolynomial simple = common.degree() < 1 ? polynomial : exact_quotient(polynomial, common);
-  Brackets brackets = brackets_of(simple, count);
+  Brackets brackets = guessed_brackets(simple, NearPolynomial(simple), count);
+  if (brackets.empty()) {
+    const std::vector<Dyadic> separators = root_separators(simple);
+    for (std::size_t i = 1; i < separators.size(); ++i) {
+      brackets.push_back({separators[i - 1], separators[i]});
+    }
+  }
   return {std::move(simple), std::move(brackets)};
 }
 
