@@ -176,9 +176,10 @@ DoubleDouble RealRoot::rounded() {
 int order(RealRoot& a, RealRoot& b) {
   if (a.polynomial_.degree() == 1 && b.polynomial_.degree() == 1)
     return RealRoot::order_of_fractions(a, b);
-  // Roots that are not very close differ by then, or as soon as both are known to many bits. Only
-  // the others are worth the question whether they are one.
+  // Roots that are not very close differ by then. Only the others are worth the question whether
+  // they are one. It is asked earlier of roots that are known to many bits.
   constexpr int steps_before_asking = 4;
+  constexpr int steps_of_many_bits = 2;
   constexpr int many_bits = 16;
   bool differ = false;
   for (int step = 0;; ++step) {
@@ -186,7 +187,8 @@ int order(RealRoot& a, RealRoot& b) {
     if (a_to_b <= 0) return a_to_b == 0 && a.is_point() && b.is_point() ? 0 : -1;
     if (compared(b.high_, a.low_) <= 0) return 1;
     if (a.is_at_root_of(b) || b.is_at_root_of(a)) return 0;
-    const bool are_close = step >= steps_before_asking || std::min(a.bits_, b.bits_) >= many_bits;
+    const bool are_known = step >= steps_of_many_bits && std::min(a.bits_, b.bits_) >= many_bits;
+    const bool are_close = are_known || step >= steps_before_asking;
     if (!differ && are_close && !a.is_point() && !b.is_point()) {
       // They are one if their polynomials have a root in common where the intervals overlap.
       const DyadicPolynomial common = common_divisor(a.polynomial_, b.polynomial_);

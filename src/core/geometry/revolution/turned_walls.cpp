@@ -104,9 +104,9 @@ class TurnedWalls {
   std::array<std::byte, 4096> buffer_;
   std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
   Walls walls_{&memory_};
-  std::pmr::vector<std::uint32_t> candidates_{&memory_};
-  std::pmr::vector<std::uint32_t> open_{&memory_};  ///< candidates that take exact arithmetic
-  CrossingList met_;                                ///< of one body
+  std::pmr::vector<std::uint32_t> candidates_{&memory_};  ///< later those met by their bodies
+  std::pmr::vector<std::uint32_t> open_{&memory_};        ///< candidates that take exact arithmetic
+  CrossingList met_;                                      ///< of one body
   std::array<bool, end_count> is_behind_{};
   double largest_error_ = 0;
   std::uint8_t root_at_start_ = 0;
@@ -121,15 +121,21 @@ void TurnedWalls::append() {
     if (is_boundary) candidates_.push_back(number);
   });
   if (candidates_.empty()) return;
+  std::size_t plain = 0;
   for (const std::uint32_t piece : candidates_) {
     const std::size_t before = walls_.size();
-    if (!passes_corner(search, profile_.pieces()[piece]) && meet_wall(piece)) continue;
-    walls_.resize(before);
-    open_.push_back(piece);
+    if (!passes_corner(search, profile_.pieces()[piece]) && meet_wall(piece)) {
+      candidates_[plain++] = piece;
+    } else {
+      walls_.resize(before);
+      open_.push_back(piece);
+    }
   }
+  candidates_.resize(plain);
+  const auto by_bodies = static_cast<std::ptrdiff_t>(walls_.size());
   meet_exactly(open_);
-  if (!are_even() && open_.size() < candidates_.size()) {
-    walls_.clear();
+  if (!are_even()) {
+    walls_.erase(walls_.begin(), walls_.begin() + by_bodies);
     meet_exactly(candidates_);
   }
   unify();
