@@ -42,6 +42,7 @@ TEST_CASE("roots of any multiplicity are isolated by a polynomial that changes i
     check_roots({0, 0, 1, 1}, factor);
     check_roots({1, 1 + 0x1p-50}, factor);
     check_roots({1, 1 + 0x1p-40, 1 + 0x1p-30, 1e30}, factor);
+    check_roots({5, 5 + 0x1p-40, 5 + 0x1p-39, 5 + 0x1p-38}, factor);
     check_roots({0x1p-200, 1}, factor);
   }
   CHECK(isolated_roots(without_roots).brackets.empty());
@@ -85,6 +86,29 @@ TEST_CASE("polynomials of small numbers have as many roots as Sturm's theorem co
     REQUIRE(isolated.brackets.size() == static_cast<std::size_t>(SturmChain(polynomial).count()));
     for (const auto& [low, high] : isolated.brackets) {
       REQUIRE(SturmChain(isolated.polynomial).count(low, high) == 1);
+    }
+  }
+}
+
+TEST_CASE("two roots beside a place that double-doubles do not tell from them are isolated") {
+  for (const int exponent : {-60, -150, -200, -208, -250, -400}) {
+    CAPTURE(exponent);
+    for (const int sign : {-1, 1}) {
+      const Dyadic middle = 1.0 / 3;
+      const Dyadic off(std::ldexp(sign, exponent));
+      const DyadicPolynomial pair({square(middle) + off, Dyadic(-2) * middle, Dyadic(1)});
+      const IsolatedRoots isolated =
+          isolated_roots(pair * DyadicPolynomial({Dyadic(-2), Dyadic(0), Dyadic(1)}));
+      REQUIRE(isolated.brackets.size() == (sign < 0 ? 4 : 2));
+      for (const auto& [low, high] : isolated.brackets) {
+        REQUIRE(SturmChain(isolated.polynomial).count(low, high) == 1);
+      }
+      if (sign > 0) continue;
+      // The parabola has its root between both ends.
+      const auto& [low, high] = isolated.brackets[1];
+      REQUIRE((middle - high).sign() > 0);
+      REQUIRE((square(middle - high) + off).sign() < 0);
+      REQUIRE((square(middle - low) + off).sign() > 0);
     }
   }
 }

@@ -27,16 +27,6 @@ Dyadic size_of(const Dyadic& number) {
   return number.sign() < 0 ? -number : number;
 }
 
-/// Returns the polynomial of h that has the value of another one at x + h.
-DyadicPolynomial about(const DyadicPolynomial& polynomial, const Dyadic& x) {
-  const DyadicPolynomial argument({x, 1});
-  DyadicPolynomial sum;
-  for (int i = polynomial.degree(); i >= 0; --i) {
-    sum = sum * argument + DyadicPolynomial({polynomial.coefficient(static_cast<std::size_t>(i))});
-  }
-  return sum;
-}
-
 /// Returns whether a polynomial surely rises or falls all the way from -reach to reach.
 bool is_monotonic(const DyadicPolynomial& polynomial, const Dyadic& reach) {
   if (polynomial.degree() < 1) return false;
