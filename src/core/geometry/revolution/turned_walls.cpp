@@ -156,19 +156,20 @@ TurnedWall& TurnedWalls::add(const Crossing& crossing, std::uint32_t face, Shift
 /// Returns whether the line passes a corner of a piece so near that only exact arithmetic says
 /// which walls it crosses there. It may touch them in the corner alone, along a wall, and see
 /// nothing of that. It may pass between the corner that an arc has and its circle, too, and cross
-/// its chord there. And a body that the line leaves beside the corner at once is not seen, nor is
-/// one of no height.
+/// its chord there. And where the line leaves a body beside the corner at once, that is not seen.
+/// The flatter a cone is, the farther from its rim it may be so.
 bool TurnedWalls::passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const {
   const Vec3 along = piece.to - piece.from;
-  const double gap = piece.arc == Profile::no_arc
-                         ? 0
-                         : profile_.arcs()[piece.arc].margin * largest_component(along);
+  double off = search.shortest();
+  if (piece.arc != Profile::no_arc) {
+    off += profile_.arcs()[piece.arc].margin * largest_component(along);
+  } else if (along.y != 0) {
+    off *= std::max(1.0, std::abs(along.x / along.y));
+  }
   const auto passes = [&](const Vec3& corner) {
-    return search.is_along(corner) ||
-           search.comes_near(Bounds{corner, corner}.grown(gap + search.shortest()));
+    return search.is_along(corner) || search.comes_near(Bounds{corner, corner}.grown(off));
   };
-  const bool is_thin = along.y != 0 && std::abs(along.y) <= search.shortest();
-  return is_thin || passes(piece.from) || passes(piece.to);
+  return passes(piece.from) || passes(piece.to);
 }
 
 /// Returns whether both lines cross an even number of walls.
