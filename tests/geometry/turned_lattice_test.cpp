@@ -178,3 +178,19 @@ TEST_CASE("walls of a revolution that overlap in part on one surface leave no fi
     CHECK(hits > 4000);
   }
 }
+
+TEST_CASE(
+    "walls beside a corner are met where t rounds their bodies' parts of the line to nothing") {
+  const Revolution revolution{
+      .profile = profile_of({{{0x1.3cbd4e343b732p-18, 0x1.1615237566df9p-28, -0x1.14e868bb1e856p-1},
+                              {0, 0x1.15cf448315654p-28},
+                              {0x1.3cd447009741p-18, 0x1.4312a6094e413p-29}}})};
+  const core::ObjectRay ray{
+      .origin = {-0x1.79039e0ee1312p+4, 0x1.95fe91e318c85p+4, 0x1.f3b5864122a62p+3},
+      .direction = {0x1.3d998855f3a14p-1, -0x1.56034ce13a4b1p-1, -0x1.a4f57771130dfp-2}};
+  // The line enters next to one corner and leaves next to another, by the arc between them.
+  const core::CrossingList list = crossings(*core::make_shape(revolution), ray);
+  REQUIRE(list.size() == 2);
+  CHECK(list[0].t == 37.986349467322796);
+  CHECK(list[1].t == 37.986349467505327);
+}

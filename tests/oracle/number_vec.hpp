@@ -115,13 +115,15 @@ inline Mesh tetrahedron(const std::array<Vec3, 4>& corners) {
   return {};
 }
 
-/// Returns a profile of a triangle whose last side is an arc, or none if that has no area.
+/// Returns a profile of a triangle whose last side is an arc, or none if that has no area or fewer
+/// corners.
 inline std::shared_ptr<const Profile> arched_triangle(const std::array<Vec3, 3>& corners,
                                                       double bulge) {
   const auto& [a, b, c] = corners;
   const Contour contour = {{a.x, a.y, bulge}, {b.x, b.y}, {c.x, c.y}};
   try {
-    return make_profile(std::array{contour});
+    const auto profile = make_profile(std::array{contour});
+    return profile->pieces().size() == corners.size() ? profile : nullptr;
   } catch (const Error&) {
     return nullptr;
   }

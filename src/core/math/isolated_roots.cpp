@@ -1,118 +1,162 @@
 #include "core/math/isolated_roots.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "core/math/near_polynomial.hpp"
 
 namespace crt::core {
 
 namespace {
 
-using RoughPolynomial = std::vector<double>;
-
-double value_of(const RoughPolynomial& polynomial, double x) {
-  double sum = 0;
-  for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * x + polynomial[i];
-  return sum;
-}
-
-RoughPolynomial derivative_of(const RoughPolynomial& polynomial) {
-  RoughPolynomial result;
-  for (std::size_t i = 1; i < polynomial.size(); ++i) {
-    result.push_back(static_cast<double>(i) * polynomial[i]);
-  }
-  return result;
-}
-
-/// Returns a polynomial of at least degree 1 in doubles, times a power of two.
-RoughPolynomial rough(const DyadicPolynomial& polynomial) {
-  std::vector<ScaledNumber> rounded;
-  int largest = std::numeric_limits<int>::min();
-  for (int i = 0; i <= polynomial.degree(); ++i) {
-    rounded.push_back(polynomial.coefficient(static_cast<std::size_t>(i)).rounded());
-    if (rounded.back().value.hi != 0) largest = std::max(largest, rounded.back().exponent);
-  }
-  RoughPolynomial result;
-  for (const ScaledNumber& number : rounded) {
-    result.push_back(std::ldexp(number.value.hi, number.exponent - largest));
-  }
-  return result;
-}
-
-/// Returns roots in doubles, each between two neighbours of the derivative's. They are as good as
-/// rounding lets them be, and some may be lost.
-std::vector<double> rough_roots(const RoughPolynomial& polynomial) {
-  if (polynomial.size() < 2) return {};
-  const double leading = polynomial.back();
-  if (polynomial.size() == 2) return {-polynomial[0] / leading};
-  double bound = 0;
-  for (const double coefficient : polynomial) bound = std::max(bound, std::abs(coefficient));
-  bound = 1 + bound / std::abs(leading);
-  std::vector<double> ends = rough_roots(derivative_of(polynomial));
-  ends.insert(ends.begin(), -bound);
-  ends.push_back(bound);
-  std::vector<double> roots;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    double low = ends[i];
-    double high = ends[i + 1];
-    const bool is_below = value_of(polynomial, low) < 0;
-    if (is_below == (value_of(polynomial, high) < 0)) continue;
-    constexpr int most_steps = 200;
-    for (int step = 0; step < most_steps; ++step) {
-      const double split = low + 0.5 * (high - low);
-      if (!(split > low && split < high)) break;
-      ((value_of(polynomial, split) < 0) == is_below ? low : high) = split;
-    }
-    roots.push_back(low);
-  }
-  return roots;
-}
-
-/// Returns whether some root may have a multiplicity of three: there the slope is next to nothing.
-bool may_be_multiple(const RoughPolynomial& polynomial, const std::vector<double>& roots) {
-  const RoughPolynomial slope = derivative_of(polynomial);
-  return std::any_of(roots.begin(), roots.end(), [&](double root) {
-    double size = 0;
-    for (std::size_t i = slope.size(); i-- > 0;) {
-      size = size * std::abs(root) + std::abs(slope[i]);
-    }
-    constexpr double plainly = 0x1p-20;
-    return !(std::abs(value_of(slope, root)) > plainly * size);
-  });
-}
-
 using Brackets = std::vector<IsolatedRoots::Bracket>;
 
-/// Guesses brackets of `count` roots from roots in doubles. Returns none if that fails, or if some
-/// root may be a multiple one. As the sign changes in all brackets, and there are no more roots,
-/// each has one.
-Brackets guessed_brackets(const DyadicPolynomial& polynomial, std::size_t count) {
-  const RoughPolynomial doubles = rough(polynomial);
-  const std::vector<double> roots = rough_roots(doubles);
-  if (roots.size() != count || may_be_multiple(doubles, roots)) return {};
-  const double largest = std::max(std::abs(roots.front()), std::abs(roots.back()));
-  constexpr double share = 0x1p-40;
-  const double margin = share * (largest > 0 ? largest : 1);
-  if (!std::isfinite(largest)) return {};
-  Brackets brackets;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0 && !(roots[i] - roots[i - 1] > 4 * margin)) return {};
-    const Dyadic low = roots[i] - margin;
-    const Dyadic high = roots[i] + margin;
-    if (polynomial.value(low).sign() * polynomial.value(high).sign() >= 0) return {};
-    brackets.push_back({low, high});
+/// A SignsNear has the signs of a polynomial at numbers of two doubles, by which it makes brackets.
+class SignsNear {
+ public:
+  SignsNear(const DyadicPolynomial& polynomial, const NearPolynomial& near)
+      : polynomial_(polynomial), near_(near), slope_(near.derivative()) {}
+
+  /// Returns brackets that make all changes of the sign which it finds.
+  Brackets brackets() const {
+    const int last = near_.sign_of_leading();
+    std::vector<End> ends;
+    ends.push_back(end_at(-1, near_.degree() % 2 == 0 ? last : -last));
+    if (near_.degree() > 1) {
+      for (const DoubleDouble& turn : slope_.roots()) append_turn(turn, ends);
+    }
+    ends.push_back(end_at(1, last));
+    Brackets found;
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      if (ends[i - 1].sign * ends[i].sign < 0) found.push_back(narrowed(ends[i - 1], ends[i]));
+    }
+    return found;
   }
+
+ private:
+  /// An End is a place where the sign is known.
+  struct End {
+    DoubleDouble y;
+    Dyadic x;
+    int sign = 0;
+    bool is_near_last = false;  ///< it makes a bracket with the one before that is narrow enough
+  };
+
+  Dyadic place(const DoubleDouble& y) const {
+    const Dyadic unit(std::ldexp(1.0, near_.exponent()));
+    return unit * (Dyadic(y.hi) + Dyadic(y.lo));
+  }
+
+  End end_at(const DoubleDouble& y, int sign) const { return {y, place(y), sign}; }
+
+  int sign_at(const DoubleDouble& y) const {
+    const int sign = near_.value(y).certain_sign();
+    return sign != 0 ? sign : polynomial_.value(place(y)).sign();
+  }
+
+  /// Appends the place where the polynomial turns, or four that enclose two roots there.
+  void append_turn(const DoubleDouble& y, std::vector<End>& ends) const {
+    if (const int sign = near_.value(y).certain_sign(); sign != 0) {
+      ends.push_back(end_at(y, sign));
+      return;
+    }
+    // The turn is found to twice as many bits, and the roots beside it as those of a parabola.
+    const DyadicPolynomial slope = polynomial_.derivative();
+    const DyadicPolynomial bend = slope.derivative();
+    Dyadic x = place(y);
+    const ScaledNumber bend_here = bend.value(x).rounded();
+    if (bend_here.value.hi == 0) return;
+    const DoubleDouble step = (-slope.value(x).rounded() / bend_here).unscaled();
+    x = x + Dyadic(step.hi) + Dyadic(step.lo);
+    const Dyadic height = polynomial_.value(x);
+    const ScaledNumber squared = -(height + height).rounded() / bend_here;
+    ends.push_back({y, x, height.sign()});
+    if (!(squared.value.hi > 0)) return;
+    const double off = sqrt(squared).unscaled().hi;
+    if (!std::isfinite(off)) return;
+    constexpr double share = 0x1p-10;
+    const Dyadic inner(off * (1 - share));
+    const Dyadic outer(off * (1 + share));
+    const std::array<Dyadic, 4> places = {x - outer, x - inner, x + inner, x + outer};
+    std::array<int, 4> signs{};
+    for (std::size_t i = 0; i < places.size(); ++i) signs[i] = polynomial_.value(places[i]).sign();
+    const int sign = height.sign();
+    if (signs != std::array{-sign, sign, sign, -sign}) return;
+    ends.pop_back();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      ends.push_back({y, places[i], signs[i], i % 2 == 1});
+    }
+  }
+
+  /// Returns a narrow bracket of a change of the sign between two places. It is no wider than they
+  /// are apart.
+  IsolatedRoots::Bracket narrowed(const End& first, const End& second) const {
+    IsolatedRoots::Bracket bracket{first.x, second.x};
+    if (second.is_near_last) return bracket;
+    const DoubleDouble y = near_.root_between(slope_, first.y, second.y, first.sign);
+    const Bounded height = near_.value(y);
+    constexpr double roundings = 16;
+    constexpr double least = 0x1p-500;
+    constexpr int most_tries = 4;
+    constexpr double widening = 0x1p12;
+    const double least_off =
+        roundings * (height.size() + height.error) / std::abs(slope_.value(y).value.hi) +
+        roundings * 0x1p-104 * std::abs(y.hi) + least;
+    // Goes away from y until the sign is that of an end. Returns whether the other one came first.
+    const auto approach = [&](double way, const End& end, Dyadic& near_end, Dyadic& far_end) {
+      bool passed_root = false;
+      double off = least_off;
+      for (int i = 0; i < most_tries && off < 1; ++i, off *= widening) {
+        const DoubleDouble here = y + DoubleDouble(way * off);
+        if (!(way * (end.y - here).hi > 0)) break;
+        const int sign = sign_at(here);
+        if (sign == end.sign) {
+          near_end = place(here);
+          break;
+        }
+        if (sign == 0) continue;
+        far_end = place(here);
+        passed_root = true;
+      }
+      return passed_root;
+    };
+    if (!approach(-1, first, bracket.low, bracket.high)) {
+      approach(1, second, bracket.high, bracket.low);
+    }
+    return bracket;
+  }
+
+  const DyadicPolynomial& polynomial_;
+  const NearPolynomial& near_;
+  NearPolynomial slope_;
+};
+
+/// Returns brackets of `count` roots if a look in double-double finds them, and else none. As the
+/// sign changes in all brackets, and there are no more roots, each has one.
+Brackets guessed_brackets(const DyadicPolynomial& polynomial, const NearPolynomial& near,
+                          std::size_t count) {
+  constexpr int largest_exponent = 400;
+  if (std::abs(near.exponent()) > largest_exponent) return {};
+  Brackets brackets = SignsNear(polynomial, near).brackets();
+  if (brackets.size() != count) brackets.clear();
   return brackets;
 }
 
-/// Finds brackets of `count` roots, each of which changes the sign.
-Brackets brackets_of(const DyadicPolynomial& polynomial, std::size_t count) {
-  Brackets brackets = guessed_brackets(polynomial, count);
-  if (!brackets.empty()) return brackets;
-  const std::vector<Dyadic> separators = root_separators(polynomial);
-  for (std::size_t i = 1; i < separators.size(); ++i) {
-    brackets.push_back({separators[i - 1], separators[i]});
+/// Guesses brackets relative to the mean of all roots. Where all of them are close to it, they
+/// differ plainly there.
+Brackets brackets_about_mean(const DyadicPolynomial& polynomial, std::size_t count) {
+  const auto degree = static_cast<std::size_t>(polynomial.degree());
+  const Dyadic weight = Dyadic(static_cast<double>(degree)) * polynomial.leading();
+  const DoubleDouble mean =
+      (-polynomial.coefficient(degree - 1).rounded() / weight.rounded()).unscaled();
+  if (!std::isfinite(mean.hi)) return {};
+  const Dyadic middle = Dyadic(mean.hi) + Dyadic(mean.lo);
+  const DyadicPolynomial moved = about(polynomial, middle);
+  Brackets brackets = guessed_brackets(moved, NearPolynomial(moved), count);
+  for (auto& [low, high] : brackets) {
+    low = low + middle;
+    high = high + middle;
   }
   return brackets;
 }
@@ -132,15 +176,35 @@ DyadicPolynomial exact_quotient(DyadicPolynomial a, const DyadicPolynomial& b) {
 
 }  // namespace
 
+DyadicPolynomial about(const DyadicPolynomial& polynomial, const Dyadic& x) {
+  const DyadicPolynomial argument({x, 1});
+  DyadicPolynomial sum;
+  for (int i = polynomial.degree(); i >= 0; --i) {
+    sum = sum * argument + DyadicPolynomial({polynomial.coefficient(static_cast<std::size_t>(i))});
+  }
+  return sum;
+}
+
 IsolatedRoots isolated_roots(const DyadicPolynomial& polynomial) {
+  if (polynomial.degree() < 1) return {};
+  const NearPolynomial near(polynomial);
+  if (const auto count = count_simple_roots(polynomial, near)) {
+    Brackets guessed = guessed_brackets(polynomial, near, *count);
+    if (guessed.size() != *count) guessed = brackets_about_mean(polynomial, *count);
+    if (guessed.size() == *count) return {polynomial, std::move(guessed)};
+  }
   const auto count = static_cast<std::size_t>(SturmChain(polynomial).count());
   if (count == 0) return {};
-  Brackets guessed = guessed_brackets(polynomial, count);
-  if (!guessed.empty()) return {polynomial, std::move(guessed)};
-  const DyadicPolynomial common = common_divisor(polynomial, polynomial.derivative());
   // Roots of a high multiplicity would take long to find.
+  const DyadicPolynomial common = common_divisor(polynomial, polynomial.derivative());
   DyadicPolynomial simple = common.degree() < 1 ? polynomial : exact_quotient(polynomial, common);
-  Brackets brackets = brackets_of(simple, count);
+  Brackets brackets = guessed_brackets(simple, NearPolynomial(simple), count);
+  if (brackets.empty()) {
+    const std::vector<Dyadic> separators = root_separators(simple);
+    for (std::size_t i = 1; i < separators.size(); ++i) {
+      brackets.push_back({separators[i - 1], separators[i]});
+    }
+  }
   return {std::move(simple), std::move(brackets)};
 }
 

@@ -19,6 +19,9 @@ struct IsolatedRoots {
   std::vector<Bracket> brackets;  ///< no two have a point in common but for their ends
 };
 
+/// Returns the polynomial of h that has the value of another one at x + h.
+DyadicPolynomial about(const DyadicPolynomial& polynomial, const Dyadic& x);
+
 /// Isolates the roots of a polynomial, which must not be 0. What root_separators() says of its
 /// limits holds here, too.
 IsolatedRoots isolated_roots(const DyadicPolynomial& polynomial);

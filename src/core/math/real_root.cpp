@@ -13,14 +13,29 @@ int compared(const Dyadic& a, const Dyadic& b) {
   return (a - b).sign();
 }
 
-/// Returns a polynomial that has different signs at low and high, and between them the root of
-/// `polynomial`. That must have one root there.
-DyadicPolynomial changing_sign(DyadicPolynomial polynomial, const Dyadic& low, const Dyadic& high) {
-  while (polynomial.value(low).sign() == polynomial.value(high).sign()) {
-    // The root has an even multiplicity, which the common divisor with the derivative makes odd.
-    polynomial = common_divisor(polynomial, polynomial.derivative());
+constexpr int most_bits = 32;
+
+/// Returns how many bits a straight line between the ends of an interval may well gain: about as
+/// many as the interval is narrower than its numbers are large.
+int bits_to_try(const Dyadic& low, const Dyadic& high) {
+  const int width = (high - low).rounded().exponent;
+  const int size = std::max(low.rounded().exponent, high.rounded().exponent);
+  return std::clamp((size - width) / 2, 1, most_bits);
+}
+
+Dyadic size_of(const Dyadic& number) {
+  return number.sign() < 0 ? -number : number;
+}
+
+/// Returns whether a polynomial surely rises or falls all the way from -reach to reach.
+bool is_monotonic(const DyadicPolynomial& polynomial, const Dyadic& reach) {
+  if (polynomial.degree() < 1) return false;
+  Dyadic change;  // of the slope, at most
+  for (int i = polynomial.degree(); i > 1; --i) {
+    const Dyadic& coefficient = polynomial.coefficient(static_cast<std::size_t>(i));
+    change = reach * (change + Dyadic(i) * size_of(coefficient));
   }
-  return polynomial;
+  return (size_of(polynomial.coefficient(1)) - change).sign() > 0;
 }
 
 }  // namespace
@@ -33,10 +48,17 @@ RealRoot RealRoot::at(const Dyadic& x) {
 }
 
 RealRoot::RealRoot(DyadicPolynomial polynomial, const Dyadic& low, const Dyadic& high)
-    : polynomial_(changing_sign(std::move(polynomial), low, high)),
+    : polynomial_(std::move(polynomial)),
       low_(low),
       high_(high),
-      sign_low_(polynomial_.value(low).sign()) {}
+      sign_low_(polynomial_.value(low).sign()),
+      bits_(bits_to_try(low, high)) {
+  while (sign_low_ == polynomial_.value(high).sign()) {
+    // The root has an even multiplicity, which the common divisor with the derivative makes odd.
+    polynomial_ = common_divisor(polynomial_, polynomial_.derivative());
+    sign_low_ = polynomial_.value(low).sign();
+  }
+}
 
 std::optional<RealRoot> RealRoot::near(const DyadicPolynomial& polynomial, const DoubleDouble& t,
                                        double error) {
@@ -47,10 +69,17 @@ std::optional<RealRoot> RealRoot::near(const DyadicPolynomial& polynomial, const
   }
   // The interval is wider than the error, so that a root just within the error is not at an end.
   const Dyadic margin(2 * error);
+  const DyadicPolynomial nearby = about(polynomial, middle);
+  const int sign_low = nearby.value(-margin).sign();
+  const int sign_high = nearby.value(margin).sign();
+  if (sign_low == 0 || sign_high == 0) return std::nullopt;
   const Dyadic low = middle - margin;
   const Dyadic high = middle + margin;
-  if (polynomial.value(low).sign() == 0 || polynomial.value(high).sign() == 0) return std::nullopt;
-  if (SturmChain(polynomial).count(low, high) != 1) return std::nullopt;
+  if (is_monotonic(nearby, margin)) {
+    if (sign_low == sign_high) return std::nullopt;
+    return RealRoot(polynomial, low, high);
+  }
+  if (SturmChain(nearby).count(-margin, margin) != 1) return std::nullopt;
   return RealRoot(polynomial, low, high);
 }
 
@@ -80,7 +109,6 @@ void RealRoot::cut_at(const Dyadic& x) {
 // Source: Abbott, Quadratic interval refinement for real roots, 2006.
 void RealRoot::narrow() {
   if (is_point()) return;
-  constexpr int most_bits = 32;
   const Dyadic width = high_ - low_;
   if (bits_ == 1) {
     constexpr double half = 0.5;
@@ -115,7 +143,12 @@ Dyadic RealRoot::between(RealRoot& a, RealRoot& b) {
     (a_is_wider ? a : b).narrow();
   }
   constexpr double half = 0.5;
-  return Dyadic(half) * (a.high_ + b.low_);
+  const Dyadic middle = Dyadic(half) * (a.high_ + b.low_);
+  const double rounded = static_cast<float>(middle.rounded().unscaled().hi);
+  if (std::isfinite(rounded) && compared(a.high_, rounded) < 0 && compared(rounded, b.low_) < 0) {
+    return rounded;
+  }
+  return middle;
 }
 
 DoubleDouble RealRoot::rounded() {
@@ -134,15 +167,19 @@ int order(RealRoot& a, RealRoot& b) {
   if (a.polynomial_.degree() == 1 && b.polynomial_.degree() == 1)
     return RealRoot::order_of_fractions(a, b);
   // Roots that are not very close differ by then. Only the others are worth the question whether
-  // they are one.
+  // they are one. It is asked earlier of roots that are known to many bits.
   constexpr int steps_before_asking = 4;
+  constexpr int steps_of_many_bits = 2;
+  constexpr int many_bits = 16;
   bool differ = false;
   for (int step = 0;; ++step) {
     const int a_to_b = compared(a.high_, b.low_);
     if (a_to_b <= 0) return a_to_b == 0 && a.is_point() && b.is_point() ? 0 : -1;
     if (compared(b.high_, a.low_) <= 0) return 1;
     if (a.is_at_root_of(b) || b.is_at_root_of(a)) return 0;
-    if (!differ && !a.is_point() && !b.is_point() && step >= steps_before_asking) {
+    const bool are_known = step >= steps_of_many_bits && std::min(a.bits_, b.bits_) >= many_bits;
+    const bool are_close = are_known || step >= steps_before_asking;
+    if (!differ && are_close && !a.is_point() && !b.is_point()) {
       // They are one if their polynomials have a root in common where the intervals overlap.
       const DyadicPolynomial common = common_divisor(a.polynomial_, b.polynomial_);
       const Dyadic& low = compared(a.low_, b.low_) > 0 ? a.low_ : b.low_;

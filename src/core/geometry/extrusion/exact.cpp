@@ -3,6 +3,7 @@
 #include "core/geometry/frustum/exact.hpp"
 #include "core/geometry/exact_flat.hpp"
 #include "core/geometry/extrusion/extrusion.hpp"
+#include "core/geometry/known_places.hpp"
 
 namespace crt::core {
 
@@ -124,8 +125,9 @@ class ExactTier final : public ExtrusionTier {
         first.root == second.root) {
       return 0;
     }
-    std::optional<RealRoot> a = extrusion_.place(ray_, first);
-    std::optional<RealRoot> b = extrusion_.place(ray_, second);
+    const auto find = [this](const Crossing& crossing) { return extrusion_.place(ray_, crossing); };
+    std::optional<RealRoot>& a = places_.of(first, find);
+    std::optional<RealRoot>& b = places_.of(second, find);
     if (a && b) return order_of(*a, *b);
     return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
   }
@@ -137,6 +139,7 @@ class ExactTier final : public ExtrusionTier {
   std::array<CapMeeting, 2> meetings_;
   CapMeeting enter_;
   CapMeeting leave_;
+  mutable KnownPlaces places_;
 };
 
 class ExactExtrusionShape final : public ExactShape {

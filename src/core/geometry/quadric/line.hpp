@@ -5,19 +5,9 @@
 #include "core/geometry/exact_ray.hpp"
 #include "core/geometry/quadric/form.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/math/bounded.hpp"
 
 namespace crt::core {
-
-/// A Bounded number has a bound on its error.
-struct Bounded {
-  DoubleDouble value;
-  double error = 0;
-
-  double size() const { return std::abs(value.hi); }
-  /// Returns whether the sign is known, and most of the number too.
-  bool is_certain() const { return size() > 4 * error; }
-  int sign() const { return value.hi > 0 ? 1 : -1; }
-};
 
 /// A QuadricLine is a x^2 + 2 b x + c, the form along a line, where t is `shift` at x = 0.
 class QuadricLine {

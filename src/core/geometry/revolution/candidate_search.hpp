@@ -32,9 +32,15 @@ class CandidateSearch {
     squared_speed_ = d.x * d.x + d.z * d.z;
     lowest_at_ = squared_speed_ > 0 ? -(p.x * d.x + p.z * d.z) / squared_speed_ : 0;
     is_level_ = std::abs(d.y) * half <= margin * reach;
+    const double last =
+        std::max(std::abs(line_.to_t(span_.enter)), std::abs(line_.to_t(span_.leave)));
+    shortest_ = roundings * rounding_of(last) * glm::length(ray.direction);
   }
 
   bool misses() const { return span_.empty(); }
+  /// Returns the length below which a body may not be seen: both ends of its part of the line may
+  /// have one t.
+  double shortest() const { return shortest_; }
   /// Returns whether the line is so nearly across the axis, and so near the height of a corner,
   /// that nothing else is plain.
   bool is_along(const Vec3& corner) const {
@@ -84,6 +90,7 @@ class CandidateSearch {
 
  private:
   static constexpr double margin = 0x1p-40;
+  static constexpr double roundings = 4;
 
   double squared_distance(double x) const {
     const Vec3 p = line_.at(x);
@@ -98,6 +105,7 @@ class CandidateSearch {
   double squared_speed_ = 0;
   double lowest_at_ = 0;
   bool is_level_ = false;
+  double shortest_ = 0;
 };
 
 }  // namespace crt::core

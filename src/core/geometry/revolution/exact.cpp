@@ -1,5 +1,6 @@
 // Revolutions of the exact tier find where the line crosses each body without rounding.
 #include "core/geometry/exact_shape.hpp"
+#include "core/geometry/known_places.hpp"
 #include "core/geometry/revolution/revolution.hpp"
 
 namespace crt::core {
@@ -42,8 +43,11 @@ class ExactTier final : public RevolutionTier {
         first.root == second.root) {
       return 0;
     }
-    std::optional<RealRoot> a = place_on(turned_, bodies_, ray_, first);
-    std::optional<RealRoot> b = place_on(turned_, bodies_, ray_, second);
+    const auto find = [this](const Crossing& crossing) {
+      return place_on(turned_, bodies_, ray_, crossing);
+    };
+    std::optional<RealRoot>& a = places_.of(first, find);
+    std::optional<RealRoot>& b = places_.of(second, find);
     if (a && b) return core::order(*a, *b);
     return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
   }
@@ -58,6 +62,7 @@ class ExactTier final : public RevolutionTier {
   const TurnedProfile& turned_;
   const ExactBodies& bodies_;
   const ExactRay& ray_;
+  mutable KnownPlaces places_;
 };
 
 class ExactRevolutionShape final : public ExactShape {

@@ -1,5 +1,7 @@
 #include "core/geometry/revolution/exact_walls.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -18,8 +20,7 @@ DyadicPolynomial linear(const std::array<Dyadic, 2>& coefficients) {
 }
 
 /// Returns all roots of a polynomial in order. That of 0 has none.
-std::vector<RealRoot> roots_of(const DyadicPolynomial& polynomial) {
-  if (polynomial.degree() < 1) return {};
+std::vector<RealRoot> all_roots(const DyadicPolynomial& polynomial) {
   const IsolatedRoots isolated = isolated_roots(polynomial);
   std::vector<RealRoot> roots;
   for (const auto& [low, high] : isolated.brackets) {
@@ -71,15 +72,33 @@ bool is_divided(ShiftMask mask) {
   return mask != 0 && mask != both_shifts;
 }
 
+/// Returns about where a line is closest to what a profile makes, if that is far away, and 0 if
+/// not. It has few digits.
+double far_place(const ExactLine& line, const Bounds& box) {
+  const Vec3 middle(0, 0.5 * box.lower.y + 0.5 * box.upper.y, 0);
+  const double reach = std::max(box.upper.x, box.upper.y - box.lower.y);
+  const Dyadic squared = dot(line.direction, line.direction);
+  if (squared.sign() == 0) return 0;
+  const Dyadic along = dot(line.direction, line.weight * exactly(middle) - line.origin);
+  const double closest = quotient(along, squared).hi;
+  const ScaledNumber in_t = (Dyadic(reach) * line.weight).rounded() / sqrt(squared.rounded());
+  const double size = in_t.unscaled().hi;
+  constexpr double far = 4;
+  if (!(std::abs(closest) > far * size) || !std::isfinite(closest) || !(size > 0)) return 0;
+  const double unit = power_of_two_below(size);
+  return unit * std::round(closest / unit);
+}
+
 }  // namespace
 
 ExactWalls::ExactWalls(const Profile& profile, const ExactLine& line)
     : profile_(profile),
+      shift_(far_place(line, profile.bounds())),
       weight_(line.weight),
-      height_(line.origin[1]),
-      climb_(line.direction[1]),
-      origin_(line.origin),
-      direction_(line.direction) {
+      origin_(line.origin + Dyadic(shift_) * line.direction),
+      direction_(line.direction),
+      height_(origin_[1]),
+      climb_(direction_[1]) {
   const auto product = [](const DyadicVector& a, const DyadicVector& b) {
     return a[0] * b[0] + a[2] * b[2];
   };
@@ -173,10 +192,9 @@ struct ExactWalls::Segment {
   const DyadicPolynomial& boundary() const { return is_sphere ? sum : quartic; }
 
   bool is_in_disc(const Dyadic& t) const {
-    const int sign = sum.value(t).sign();
-    if (is_sphere) return sign < 0;
-    const int product = quartic.value(t).sign();
-    return is_lemon ? sign < 0 && product > 0 : sign < 0 || product < 0;
+    const bool is_near = sum.value(t).sign() < 0;
+    if (is_sphere || is_near != is_lemon) return is_near;
+    return (quartic.value(t).sign() < 0) != is_lemon;
   }
 
   ShiftMask beyond_chord(const Dyadic& t) const {
@@ -219,7 +237,7 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
   segment.left_if_along = up_is_left > 0 ? moved_up : complement(moved_up);
 
   std::vector<DividingPlace> places =
-      merged(roots_of(segment.boundary()), roots_of(piece_cut.equation.polynomial()));
+      merged(all_roots(segment.boundary()), roots_of(chord, piece_cut));
 
   bool was_in_disc = false;
   ShiftMask was_inside = 0;
@@ -233,12 +251,20 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
     ShiftMask shifts = was_inside ^ inside;
     if (of_chord) shifts ^= piece_cut.shifts[*of_chord];
     const bool crosses_disc = in_disc != was_in_disc;
-    if (shifts != 0 && crosses_disc) {
-      walls.push_back({root.rounded(), arc.piece, disc_roots, shifts, !in_disc});
-    } else if (shifts != 0 && of_chord) {
-      walls.push_back({root.rounded(), profile_.chord_of(chord.arc),
-                       static_cast<std::uint8_t>(*of_chord), shifts,
-                       piece_cut.along_normal[*of_chord]});
+    if (shifts != 0 && (crosses_disc || of_chord)) {
+      ExactWall wall{
+          .wall = arc.piece, .root = disc_roots, .shifts = shifts, .along_normal = !in_disc};
+      if (!crosses_disc) {
+        wall.wall = profile_.chord_of(chord.arc);
+        wall.root = static_cast<std::uint8_t>(*of_chord);
+        wall.along_normal = piece_cut.along_normal[*of_chord];
+      }
+      if (of_chord && is_divided(piece_cut.shifts[*of_chord])) {
+        place_at(crossed_corner(chord, piece_cut, *of_chord), *of_chord, wall);
+      } else {
+        wall.t = root.rounded();
+      }
+      walls.push_back(wall);
     }
     if (crosses_disc) ++disc_roots;
     was_in_disc = in_disc;
@@ -248,7 +274,19 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
 
 void ExactWalls::meet(std::uint32_t number, std::vector<ExactWall>& walls) const {
   const Profile::Piece& piece = profile_.pieces()[number];
-  if (piece.arc != Profile::no_arc) return meet_arc(profile_.arcs()[piece.arc], walls);
+  const std::size_t before = walls.size();
+  if (piece.arc != Profile::no_arc) {
+    meet_arc(profile_.arcs()[piece.arc], walls);
+  } else {
+    meet_piece(number, walls);
+  }
+  for (std::size_t i = before; i < walls.size(); ++i) {
+    walls[i].t = walls[i].t + DoubleDouble(shift_);
+  }
+}
+
+void ExactWalls::meet_piece(std::uint32_t number, std::vector<ExactWall>& walls) const {
+  const Profile::Piece& piece = profile_.pieces()[number];
   const PieceCut piece_cut = cut(piece);
   for (std::size_t i = 0; i < piece_cut.shifts.size(); ++i) {
     const ShiftMask shifts = piece_cut.shifts[i];
@@ -258,7 +296,7 @@ void ExactWalls::meet(std::uint32_t number, std::vector<ExactWall>& walls) const
                    .shifts = shifts,
                    .along_normal = piece_cut.along_normal[i]};
     if (is_divided(shifts)) {
-      place_at(piece_cut.apex ? *piece_cut.apex : crossed_corner(piece, i), i, wall);
+      place_at(crossed_corner(piece, piece_cut, i), i, wall);
     } else {
       wall.t = root_of(piece_cut.equation, i);
     }
@@ -266,11 +304,24 @@ void ExactWalls::meet(std::uint32_t number, std::vector<ExactWall>& walls) const
   }
 }
 
-const Vec3& ExactWalls::crossed_corner(const Profile::Piece& piece, std::size_t root) const {
+const Vec3& ExactWalls::crossed_corner(const Profile::Piece& piece, const PieceCut& cut,
+                                       std::size_t root) const {
+  if (cut.apex != nullptr) return *cut.apex;
   const bool passes_from = is_divided(beyond(piece.from));
   if (!passes_from || !is_divided(beyond(piece.to))) return passes_from ? piece.from : piece.to;
   const bool climbs = (piece.to.y > piece.from.y) == (climb_.sign() > 0);
   return climbs == (root == 0) ? piece.from : piece.to;
+}
+
+std::vector<RealRoot> ExactWalls::roots_of(const Profile::Piece& piece, const PieceCut& cut) const {
+  std::vector<RealRoot> roots = all_roots(cut.equation.polynomial());
+  if (climb_.sign() == 0) return roots;
+  for (std::size_t i = 0; i < std::min(roots.size(), cut.shifts.size()); ++i) {
+    if (!is_divided(cut.shifts[i])) continue;
+    const Vec3& corner = crossed_corner(piece, cut, i);
+    roots[i] = all_roots(linear({height_ - weight_ * Dyadic(corner.y), climb_}))[0];
+  }
+  return roots;
 }
 
 void ExactWalls::place_at(const Vec3& corner, std::size_t root, ExactWall& wall) const {

@@ -67,20 +67,27 @@ class ExactWalls {
   PieceCut cut(const Profile::Piece& piece) const;
   PieceCut level_cut(const Profile::Piece& piece) const;
   /// Returns the corner of a piece where the line, and not both of its neighbours, crosses it.
-  const Vec3& crossed_corner(const Profile::Piece& piece, std::size_t root) const;
+  const Vec3& crossed_corner(const Profile::Piece& piece, const PieceCut& cut,
+                             std::size_t root) const;
+  /// Returns the roots of a cut's equation. Those at corners have equations of degree 1, if the
+  /// line is not level.
+  std::vector<RealRoot> roots_of(const Profile::Piece& piece, const PieceCut& cut) const;
   /// Says where the line is at a corner that it passes.
   void place_at(const Vec3& corner, std::size_t root, ExactWall& wall) const;
   /// Returns the sign of g' where the line is at the height of a corner.
   int slope_at(const ExactQuadratic& g, const Vec3& corner) const;
+  void meet_piece(std::uint32_t number, std::vector<ExactWall>& walls) const;
   void meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls) const;
 
   const Profile& profile_;
+  /// All t here are less by this, so that they are small and differ plainly.
+  double shift_;
   Dyadic weight_;
+  DyadicVector origin_;
+  DyadicVector direction_;
   Dyadic height_;     ///< y at t = 0, times the weight
   Dyadic climb_;      ///< and what t adds to it
   ExactQuadratic q_;  ///< times the square of the weight
-  DyadicVector origin_;
-  DyadicVector direction_;
 };
 
 }  // namespace crt::core

@@ -104,9 +104,9 @@ class TurnedWalls {
   std::array<std::byte, 4096> buffer_;
   std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
   Walls walls_{&memory_};
-  std::pmr::vector<std::uint32_t> candidates_{&memory_};
-  std::pmr::vector<std::uint32_t> open_{&memory_};  ///< candidates that take exact arithmetic
-  CrossingList met_;                                ///< of one body
+  std::pmr::vector<std::uint32_t> candidates_{&memory_};  ///< later those met by their bodies
+  std::pmr::vector<std::uint32_t> open_{&memory_};        ///< candidates that take exact arithmetic
+  CrossingList met_;                                      ///< of one body
   std::array<bool, end_count> is_behind_{};
   double largest_error_ = 0;
   std::uint8_t root_at_start_ = 0;
@@ -121,20 +121,21 @@ void TurnedWalls::append() {
     if (is_boundary) candidates_.push_back(number);
   });
   if (candidates_.empty()) return;
+  std::size_t plain = 0;
   for (const std::uint32_t piece : candidates_) {
     const std::size_t before = walls_.size();
-    if (!passes_corner(search, profile_.pieces()[piece]) && meet_wall(piece)) continue;
-    walls_.resize(before);
-    open_.push_back(piece);
+    if (!passes_corner(search, profile_.pieces()[piece]) && meet_wall(piece)) {
+      candidates_[plain++] = piece;
+    } else {
+      walls_.resize(before);
+      open_.push_back(piece);
+    }
   }
-  const bool has_arc = std::any_of(
-      candidates_.begin(), candidates_.end(),
-      [&](std::uint32_t piece) { return profile_.pieces()[piece].arc != Profile::no_arc; });
-  // Where an arc is among them, walls that are found in two ways may be in the wrong order.
-  const bool takes_all = has_arc && !open_.empty();
-  if (!takes_all) meet_exactly(open_);
-  if (takes_all || (!are_even() && open_.size() < candidates_.size())) {
-    walls_.clear();
+  candidates_.resize(plain);
+  const auto by_bodies = static_cast<std::ptrdiff_t>(walls_.size());
+  meet_exactly(open_);
+  if (!are_even()) {
+    walls_.erase(walls_.begin(), walls_.begin() + by_bodies);
     meet_exactly(candidates_);
   }
   unify();
@@ -155,13 +156,18 @@ TurnedWall& TurnedWalls::add(const Crossing& crossing, std::uint32_t face, Shift
 /// Returns whether the line passes a corner of a piece so near that only exact arithmetic says
 /// which walls it crosses there. It may touch them in the corner alone, along a wall, and see
 /// nothing of that. It may pass between the corner that an arc has and its circle, too, and cross
-/// its chord there.
+/// its chord there. And where the line leaves a body beside the corner at once, that is not seen.
+/// The flatter a cone is, the farther from its rim it may be so.
 bool TurnedWalls::passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const {
-  const double gap = piece.arc == Profile::no_arc ? 0
-                                                  : profile_.arcs()[piece.arc].margin *
-                                                        largest_component(piece.to - piece.from);
+  const Vec3 along = piece.to - piece.from;
+  double off = search.shortest();
+  if (piece.arc != Profile::no_arc) {
+    off += profile_.arcs()[piece.arc].margin * largest_component(along);
+  } else if (along.y != 0) {
+    off *= std::max(1.0, std::abs(along.x / along.y));
+  }
   const auto passes = [&](const Vec3& corner) {
-    return search.is_along(corner) || search.comes_near(Bounds{corner, corner}.grown(gap));
+    return search.is_along(corner) || search.comes_near(Bounds{corner, corner}.grown(off));
   };
   return passes(piece.from) || passes(piece.to);
 }

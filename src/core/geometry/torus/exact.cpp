@@ -66,17 +66,17 @@ class ExactTorusLine {
   /// Finds the crossing at about t, if that is the only one within `margin` of it. Returns false if
   /// it cannot decide.
   bool find(const DoubleDouble& t, double margin, Crossing& crossing) const {
-    const double x = ((t.hi - shift_.hi) + (t.lo - shift_.lo)) / scale_;
-    constexpr double narrowest = 0x1p-44;
-    constexpr double widening = 0x1p10;
-    for (double width = narrowest; width < margin / scale_; width *= widening) {
-      const Dyadic low = Dyadic(x) - Dyadic(width);
-      const Dyadic high = Dyadic(x) + Dyadic(width);
-      if (is_inside(low) == crossing.entering || is_inside(high) != crossing.entering) continue;
-      refine(quartic_, low, high, crossing);
-      return std::isfinite(crossing.t);
-    }
-    return false;
+    const Dyadic x = ((t.hi - shift_.hi) + (t.lo - shift_.lo)) / scale_;
+    const Dyadic reach = margin / scale_;
+    int found = 0;
+    each_crossing([&](const DyadicPolynomial& polynomial, const Dyadic& low, const Dyadic& high,
+                      bool entering) {
+      const bool is_off = (low - x - reach).sign() > 0 || (x - reach - high).sign() > 0;
+      if (is_off || entering != crossing.entering) return;
+      ++found;
+      refine(polynomial, low, high, crossing);
+    });
+    return found == 1 && std::isfinite(crossing.t);
   }
 
  private:
