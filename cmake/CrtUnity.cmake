@@ -3,10 +3,11 @@
 # read once for these and not once a source. So no two sources of a folder may give one name to
 # different things (tests/house/twins.awk finds what compilers do not). A variable may hide a name
 # of another source, but not a variable about it.
-target_compile_options(crt_compile INTERFACE -Wno-shadow)
+target_compile_options(crt_compile INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-shadow>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC takes sources that are included for headers, which must have no unnamed namespaces.
-  target_compile_options(crt_compile INTERFACE -Wno-subobject-linkage -Wshadow=local)
+  target_compile_options(crt_compile INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage;-Wshadow=local>)
 endif()
 
 foreach(target crt_core crt_lang crt_farm crt_capi_objects crt_format crt_service crt_source
