@@ -152,6 +152,15 @@ check_versions() {
   done
 }
 
+# docs/installing.md has a row for each option that leaves out a part.
+check_parts() {
+  local option
+  sed -nE 's/^crt_part\((CRT_[A-Z_]+) .*/\1/p; s/^crt_part\((CRT_[A-Z_]+)$/\1/p' \
+    cmake/CrtOptions.cmake | while IFS= read -r option; do
+    grep -qF "| \`$option\` |" docs/installing.md || echo "docs/installing.md: no $option"
+  done
+}
+
 check_ends() {
   local file
   git ls-files -z --eol | tr '\0' '\n' |
@@ -261,6 +270,7 @@ lines_with '\.\./shared' . | without '^tests/house/check.sh:' | complain "The pr
 long_files "$limit_of_lines" 1000000 | complain "Over $limit_of_lines lines: split by subject"
 check_scripts | complain "Shell scripts"
 check_ends | complain "Line ends"
+check_parts | complain "An option that is not documented"
 check_versions | complain "Not the version of CMakeLists.txt"
 check_promises | complain "A promise without its test"
 check_columns | complain "Over $most_columns columns"
