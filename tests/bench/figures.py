@@ -94,7 +94,7 @@ class Bench:
 def objects_of_command(build: pathlib.Path) -> set[str]:
     inputs = subprocess.run(["ninja", "-C", build, "-t", "inputs", "crt"], capture_output=True,
                             check=True, text=True)
-    return {line for line in inputs.stdout.splitlines() if line.endswith(".o")}
+    return {line for line in inputs.stdout.splitlines() if line.endswith((".o", ".gch"))}
 
 
 def headers(build: pathlib.Path) -> int:
