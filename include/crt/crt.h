@@ -85,7 +85,7 @@ extern "C" {
  */
 #define CRT_VERSION_MAJOR 1
 /** This number grows with every release that adds something. */
-#define CRT_VERSION_MINOR 0
+#define CRT_VERSION_MINOR 1
 /** This number grows with every other release. */
 #define CRT_VERSION_PATCH 0
 

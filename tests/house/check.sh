@@ -143,6 +143,24 @@ check_promises() {
   done
 }
 
+# CMakeLists.txt has the version, and the tests compare it with crt.h and Python's.
+check_versions() {
+  local file version
+  version=$(sed -nE 's/^project\(crt VERSION ([0-9.]+) .*/\1/p' CMakeLists.txt)
+  for file in python/crt/_version.py editors/vscode/package.json src/studio/page/package.json; do
+    grep -qF "\"$version\"" "$file" || echo "$file: is not of version '$version'"
+  done
+}
+
+# docs/installing.md has a row for each option that leaves out a part.
+check_parts() {
+  local option
+  sed -nE 's/^crt_part\((CRT_[A-Z_]+) .*/\1/p; s/^crt_part\((CRT_[A-Z_]+)$/\1/p' \
+    cmake/CrtOptions.cmake | while IFS= read -r option; do
+    grep -qF "| \`$option\` |" docs/installing.md || echo "docs/installing.md: no $option"
+  done
+}
+
 check_ends() {
   local file
   git ls-files -z --eol | tr '\0' '\n' |
@@ -254,6 +272,8 @@ lines_with '\.\./shared' . | without '^tests/house/check.sh:' | complain "The pr
 long_files "$limit_of_lines" 1000000 | complain "Over $limit_of_lines lines: split by subject"
 check_scripts | complain "Shell scripts"
 check_ends | complain "Line ends"
+check_parts | complain "An option that is not documented"
+check_versions | complain "Not the version of CMakeLists.txt"
 check_promises | complain "A promise without its test"
 check_columns | complain "Over $most_columns columns"
 check_subjects | complain "A commit's subject has over $most_in_subject characters"

@@ -51,7 +51,7 @@ library=$(basename libcrt[0-9]*_*.deb)
 library=${library%%_*}
 major=${library#libcrt}
 expect_field "$library" Depends 'libembree[34]-[34]' 'libtbb12' 'libc6' 'libstdc\+\+6'
-# What is loaded when it is first needed is not asked for. OpenImageIO brings some 320 packages.
+# What is loaded when it is first needed is not asked for. OpenImageIO brings some 240 packages.
 expect_field "$library" Recommends 'libfreetype6' 'libopenimageio'
 for name in "$library" libcrt-dev crt crt-studio; do
   expect_field "$name" Version "^${version//./\\.}\$"

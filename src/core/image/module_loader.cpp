@@ -117,7 +117,8 @@ const ImageFiles& load_image_files(std::span<const fs::path> directories) {
   throw Error(
       ErrorCode::unsupported,
       text::format(
-          "image files cannot be read or written: the module {} was not found; looked for:{}",
+          "all image files but PNG files that are written need the module {}, which could not be "
+          "loaded; looked for:{}",
           image_files_module_name, reasons));
 }
 

@@ -34,7 +34,7 @@ struct Packer::State {
   }
 };
 
-Packer::Packer(Write write) : state_(std::make_unique<State>(std::move(write))) {
+Packer::Packer(Write write) : state_(new State{.write = std::move(write)}) {
   if (deflateInit(&state_->stream, Z_DEFAULT_COMPRESSION) != Z_OK) throw std::bad_alloc();
   state_->make_room();
 }

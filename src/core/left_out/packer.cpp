@@ -52,7 +52,7 @@ struct Packer::State {
   }
 };
 
-Packer::Packer(Write write) : state_(std::make_unique<State>(std::move(write))) {}
+Packer::Packer(Write write) : state_(new State{.write = std::move(write)}) {}
 
 Packer::~Packer() = default;
 

@@ -35,7 +35,7 @@ int main(int argc, char** argv) try {
     return 1;
   }
   const crt::Image image = crt::render(prepared);
-  image.write(argv[1]);
+  image.write(argv[1], {.reproducible = true});
 
   expect_left_out("CRT_WITH_IMAGES", [&] { image.write("picture.jpg"); });
   expect_left_out("CRT_WITH_IMAGES", [&] { crt::Image::read(argv[1]); });
