@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the Debian packages, checks what they have and ask for, unpacks them side by side, and runs
-# the command and a consumer from there.
+# the command and a consumer from there. With CRT_RELEASE in the environment, the packages are those
+# in that folder, which are to be released.
 # shellcheck source=tests/package/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 need dpkg-shlibdeps dpkg-dev
@@ -11,8 +12,13 @@ work=$WORK.debian
 rm -rf "$work"
 mkdir -p "$work/root"
 cd "$work"
-cpack --config "$BUILD/CPackConfig.cmake" -B . >cpack.log 2>&1 || fail "$(cat cpack.log)"
-rm -r _CPack_Packages
+if [[ -n ${CRT_RELEASE:-} ]]; then
+  cp "$CRT_RELEASE"/*.deb .
+else
+  cpack --config "$BUILD/CPackConfig.cmake" -B . >cpack.log 2>&1 || fail "$(cat cpack.log)"
+  rm -r _CPack_Packages
+fi
+version=$(sed -nE 's/^project\(crt VERSION ([0-9.]+) .*/\1/p' "$SOURCE/CMakeLists.txt")
 
 # package NAME prints its file, of which there is one.
 package() {
@@ -47,6 +53,9 @@ major=${library#libcrt}
 expect_field "$library" Depends 'libembree[34]-[34]' 'libtbb12' 'libc6' 'libstdc\+\+6'
 # What is loaded when it is first needed is not asked for. OpenImageIO brings some 240 packages.
 expect_field "$library" Recommends 'libfreetype6' 'libopenimageio'
+for name in "$library" libcrt-dev crt crt-studio; do
+  expect_field "$name" Version "^${version//./\\.}\$"
+done
 for name in "$library" crt crt-studio; do
   ! dpkg-deb -f "$(package "$name")" Depends | grep -E 'openimageio|freetype' ||
     fail "$name is not to depend on these"
@@ -87,6 +96,7 @@ done
 echo 'Scene { Sphere { center -> vec3(0, 0, 2) radius -> 1 } }' >sphere.crt
 env -i root/usr/bin/crt render sphere.crt -o sphere.png --width 64 --height 48 --quiet
 expect_png sphere.png
+[[ $(env -i root/usr/bin/crt --version) == "crt $version" ]] || fail "crt is not of $version"
 
 export PKG_CONFIG_PATH=$work/root/usr/$LIBDIR/pkgconfig
 # shellcheck disable=SC2046 # flags are words

@@ -6,7 +6,7 @@ need python3 python3
 
 installed=$moved/share/doc/crt
 python3 "$SOURCE/tests/package/links.py" "$installed" || fail "links in the installed tree"
-python3 "$SOURCE/tests/package/links.py" "$SOURCE/README.md" "$SOURCE/CONTRIBUTING.md" \
+python3 "$SOURCE/tests/package/links.py" "$SOURCE"/{README,CHANGELOG,CONTRIBUTING}.md \
   "$SOURCE/docs" || fail "links in the source"
 
 # The test sees a link that leads nowhere.

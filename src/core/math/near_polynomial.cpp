@@ -62,7 +62,7 @@ std::optional<std::size_t> count_roots(const std::vector<Number>& c) {
   return *all ? 4U : 0U;
 }
 
-Bounded scaled(const ScaledNumber& number, int exponent) {
+Bounded bounded(const ScaledNumber& number, int exponent) {
   constexpr double roundoff = 0x1p-98;
   constexpr double underflow = 0x1p-1000;
   const DoubleDouble value = ScaledNumber{number.value, number.exponent + exponent}.unscaled();
@@ -92,7 +92,7 @@ NearPolynomial::NearPolynomial(const DyadicPolynomial& polynomial) {
   exponent_ = largest.value_or(0) + 2;
   for (int i = 0; i <= degree; ++i) {
     coefficients_.push_back(
-        scaled(rounded[static_cast<std::size_t>(i)], (i - degree) * exponent_ - leading));
+        bounded(rounded[static_cast<std::size_t>(i)], (i - degree) * exponent_ - leading));
   }
 }
 
