@@ -102,9 +102,8 @@ struct CheckRequest : CommonRequest {
 
 struct TradeRequest : CommonRequest {
   std::filesystem::path scene;
-  /// The command writes this name with .csv and .svg, and with .png if asked for.
+  /// The command writes this name with .csv and .svg.
   std::filesystem::path output;
-  bool png = false;
   /// Measures this part only. Without it, bands with about `pixels` pixels together are measured.
   std::optional<Region> region;
   double pixels = 30000;
