@@ -88,7 +88,7 @@ class RenderJob {
   }
 
   bool render_film(const PlannedPicture& planned) {
-    std::unique_ptr<Film> film;
+    std::optional<Film> film;
     FilmShape shape{.frames_per_second = request_.frames_per_second};
     for (int frame = request_.frames->first; frame <= request_.frames->last; ++frame) {
       const std::string name = fmt::format("{} ({})", planned.output.string(), frame);
@@ -98,7 +98,7 @@ class RenderJob {
       if (!film) {
         shape.width = image->width();
         shape.height = image->height();
-        film = begin_film(planned.output, shape);
+        film.emplace(planned.output, shape);
       }
       check_frame(*image, shape, frame);
       film->add(film_frame(*image));
@@ -118,9 +118,6 @@ class RenderJob {
   }
 
   static void check_frame(const Image& image, const FilmShape& shape, int frame) {
-    constexpr int longest_side = 65535;  // of a GIF
-    if (image.width() > longest_side || image.height() > longest_side)
-      throw Error(ErrorCode::invalid_argument, "a film has at most 65535 pixels across and down");
     if (image.width() == shape.width && image.height() == shape.height) return;
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("the frames of a film have one size: that of frame {} has {} x {} "
