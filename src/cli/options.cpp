@@ -131,17 +131,17 @@ std::string long_names_of(const std::string& option, const std::vector<std::stri
 }
 
 /// Says what does instead what an option sounds like that there is not.
-std::string instead_of(const std::string& command, const std::string& option) {
+std::string instead_of(const std::string& option) {
   struct Other {
-    std::string_view command;
     std::string_view option;
     const char* what;
   };
   constexpr Other others[] = {
-      {"trade", "--png", "the plot is an SVG file, which browsers show, and Inkscape converts"},
+      {"--png", "the plot is an SVG file, which browsers show, and Inkscape converts"},
+      {"--display", "crt watch shows a picture in progress in its file, which viewers follow"},
   };
   for (const Other& other : others) {
-    if (other.command == command && other.option == option) return fmt::format(": {}", other.what);
+    if (other.option == option) return fmt::format(": {}", other.what);
   }
   return "";
 }
@@ -163,7 +163,7 @@ std::string complaint_about_unknown(const CLI::App& app, int argc, const char* c
   for (const OptionDescription& option : command.options)
     names.insert(names.end(), option.names.begin(), option.names.end());
   const std::string name = word.substr(0, word.find('='));
-  if (const std::string instead = instead_of(command.name, name); !instead.empty())
+  if (const std::string instead = instead_of(name); !instead.empty())
     return fmt::format("'{}' has no option {}{}", title, name, instead);
   constexpr std::size_t of_one_letter = 2;
   return fmt::format(

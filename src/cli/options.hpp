@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "cli/command_description.hpp"
-#include "tev/tev_viewer.hpp"
 
 namespace crt::cli {
 
@@ -61,13 +60,11 @@ struct RenderRequest : PictureRequest {
   std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
-  bool show = false;                          ///< in the terminal
-  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress
+  bool show = false;  ///< in the terminal
 };
 
 struct WatchRequest : PictureRequest {
   std::filesystem::path scene;
-  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress
 };
 
 /// A FarmRequest holds what all verbs of the command take. `given` has the options by name.
@@ -146,7 +143,6 @@ struct StudioRequest : CommonRequest {
   // Without a certificate it is not encrypted. The key may be in the same file.
   std::filesystem::path tls_certificate;
   std::filesystem::path tls_key;
-  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress, too
   int threads = 0;
   bool embed = false;  ///< in a frame of another page, until standard input ends
 };

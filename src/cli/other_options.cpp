@@ -236,7 +236,6 @@ Examples:
                         .help = "lets pages of this machine show it in a frame, as notebooks do, "
                                 "and ends when standard input does",
                         .take = into_flag("--embed", request.embed)});
-  add_display_row(table.rows, request.display);
   add_threads_row(table.rows, request.threads);
   return table;
 }

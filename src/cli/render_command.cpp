@@ -39,7 +39,6 @@ class RenderJob {
     if (!pictures) return reporter_.finish();
     const InterruptScope interrupt;
     interrupt_ = &interrupt;
-    if (request_.display) viewer_.emplace(*request_.display);
     bool all_done = true;
     for (const PlannedPicture& picture : *pictures) {
       all_done = render_planned(picture) && all_done;
@@ -161,8 +160,7 @@ class RenderJob {
                            .picture = output == standard_stream ? usual_name() : output,
                            .name = name,
                            .style = style_,
-                           .go_on = go_on,
-                           .viewer = viewer_ ? &*viewer_ : nullptr};
+                           .go_on = go_on};
     Image image = render_scene(*scene, task, reporter_);
     image.stats().parse_seconds = parse_seconds;
     return image;
@@ -226,7 +224,6 @@ class RenderJob {
   Reporter reporter_;
   ProgressStyle style_;
   const InterruptScope* interrupt_ = nullptr;
-  std::optional<tev::TevViewer> viewer_;
   Projection projection_{};
   bool has_warned_ = false;
   std::vector<PictureReport> reports_;

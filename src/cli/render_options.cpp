@@ -32,9 +32,10 @@ Examples:
 
 constexpr std::string_view watch_footer =
     R"(Renders the script, and again whenever it changes or anything that it imports or reads. First
-comes a draft with an eighth of the pixels across and down, then the picture itself. The file is
-replaced at once, so that a viewer never sees a part of it. Errors of the script are reported, and
-the picture stays until they are mended. Ctrl-C ends it, with code 0.
+comes a draft with an eighth of the pixels across and down, then the picture: in progress, if it
+takes seconds, and whole. The file is replaced at once, so that a viewer that follows it never sees
+a part of it. Errors of the script are reported, and the picture stays until they are mended. Ctrl-C
+ends it, with code 0.
 
 Examples:
   crt watch scene.crt                       keeps scene.png up to date
@@ -148,7 +149,6 @@ CommandTable render_table(RenderRequest& request) {
                   .type = "",
                   .help = "shows the picture in the terminal, too",
                   .take = into_flag("--show", request.show)});
-  add_display_row(rows, request.display);
   add_reproducible(rows, request);
   add_setting_rows(rows, request.script);
   return table;
@@ -165,7 +165,6 @@ CommandTable watch_table(WatchRequest& request) {
   add_script_rows(rows, request);
   add_threads_row(rows, request.render.threads);
   add_limits(rows, request);
-  add_display_row(rows, request.display);
   add_reproducible(rows, request);
   add_setting_rows(rows, request.script);
   return table;
