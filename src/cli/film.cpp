@@ -13,11 +13,13 @@
 #include <crt/error.hpp>
 #include <crt/file.hpp>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "cli/process.hpp"
 
@@ -97,6 +99,19 @@ fs::path find_ffmpeg() {
   return {};
 }
 
+/// Returns 3 bytes a pixel, in front of black.
+std::vector<std::uint8_t> rgb_of(const Image& image) {
+  const std::vector<std::uint8_t> rgba = image.to_rgba8();
+  std::vector<std::uint8_t> rgb;
+  rgb.reserve(rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < rgba.size(); i += 4) {
+    const int alpha = rgba[i + 3];
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      rgb.push_back(static_cast<std::uint8_t>((rgba[i + channel] * alpha + 127) / 255));
+  }
+  return rgb;
+}
+
 }  // namespace
 
 Film::Film(fs::path file, const FilmShape& shape) : file_(std::move(file)) {
@@ -118,7 +133,8 @@ Film::~Film() {
   fs::remove(unfinished_, ignored);
 }
 
-void Film::add(const std::vector<std::uint8_t>& rgb) {
+void Film::add(const Image& image) {
+  const std::vector<std::uint8_t> rgb = rgb_of(image);
   std::size_t written = 0;
   while (written < rgb.size()) {
     const ssize_t count = write(frames_, rgb.data() + written, rgb.size() - written);
@@ -167,18 +183,6 @@ void check_film(const fs::path& file) {
                             "installed; without it, -o {}.png writes the frames",
                             file.string(), file.stem().string()));
   }
-}
-
-std::vector<std::uint8_t> film_frame(const Image& image) {
-  const std::vector<std::uint8_t> rgba = image.to_rgba8();
-  std::vector<std::uint8_t> rgb;
-  rgb.reserve(rgba.size() / 4 * 3);
-  for (std::size_t i = 0; i < rgba.size(); i += 4) {
-    const int alpha = rgba[i + 3];
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      rgb.push_back(static_cast<std::uint8_t>((rgba[i + channel] * alpha + 127) / 255));
-  }
-  return rgb;
 }
 
 }  // namespace crt::cli

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <crt/image.hpp>
-#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace crt::cli {
 
@@ -26,8 +24,8 @@ class Film {
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
-  /// Takes the next frame: 3 bytes a pixel, rows from the top. Throws Error (io).
-  void add(const std::vector<std::uint8_t>& rgb);
+  /// Takes the next frame: what displays show of it, in front of black. Throws Error (io).
+  void add(const Image& image);
   /// Puts the film in its place. Without this call there is none. Throws Error (io).
   void finish();
 
@@ -49,8 +47,5 @@ std::string film_endings();
 
 /// Finds out, before anything is rendered, whether the film can be made. Throws Error (io).
 void check_film(const std::filesystem::path& file);
-
-/// Returns a picture's bytes for a film: as displays want them, in front of black.
-std::vector<std::uint8_t> film_frame(const Image& image);
 
 }  // namespace crt::cli

@@ -138,6 +138,7 @@ std::string instead_of(const std::string& option) {
   };
   constexpr Other others[] = {
       {"--png", "the plot is an SVG file, which browsers show, and Inkscape converts"},
+      {"--show", "crt render scene.crt -o - | chafa shows a picture in a terminal"},
       {"--display", "crt watch shows a picture in progress in its file, which viewers follow"},
   };
   for (const Other& other : others) {

@@ -60,7 +60,6 @@ struct RenderRequest : PictureRequest {
   std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
-  bool show = false;  ///< in the terminal
 };
 
 struct WatchRequest : PictureRequest {

@@ -13,7 +13,6 @@
 #include "cli/picture_renderer.hpp"
 #include "cli/render_plan.hpp"
 #include "cli/stats_json.hpp"
-#include "cli/terminal_picture.hpp"
 
 namespace crt::cli {
 
@@ -31,7 +30,7 @@ class RenderJob {
     if (request_.output == standard_stream && isatty(STDOUT_FILENO) != 0) {
       reporter_.add(ErrorCode::invalid_argument,
                     "standard output is a terminal, which shows no picture file: send it "
-                    "elsewhere, or use --show",
+                    "elsewhere, such as by | chafa, which does",
                     ExitCode::usage);
       return reporter_.finish();
     }
@@ -100,7 +99,7 @@ class RenderJob {
         film.emplace(planned.output, shape);
       }
       check_frame(*image, shape, frame);
-      film->add(film_frame(*image));
+      film->add(*image);
       if (!request_.keep_frames.empty()) {
         const fs::path kept = request_.keep_frames / planned.output.stem();
         image->write(frame_path(kept.string() + ".png", frame),
@@ -185,7 +184,6 @@ class RenderJob {
   /// Reports a picture that is done.
   void finish(const PlannedPicture& planned, const Image& image, const std::string& name,
               std::optional<int> frame) {
-    if (request_.show) reporter_.print(terminal_picture(image));
     reporter_.note(summary(name, image));
     warn_of_picture(image);
     reports_.push_back({.script = planned.script.name(),

@@ -24,7 +24,7 @@ Examples:
   crt render scene.crt -o draft.png --width 320 --height 240
   crt render scene.crt -o corner.png --region 0,0,64,64     only that part of the picture
   crt render a.crt b.crt -o pictures                        pictures/a.png and pictures/b.png
-  crt render - -o - <scene.crt | display                    between programs
+  crt render - -o - <scene.crt | chafa                      between programs: shown in a terminal
   crt render film.crt --frames 1-48                         film_0001.png to film_0048.png
   crt render film.crt --frames 1-48 -o film.gif --fps 12    one film of four seconds
   crt render scene.crt -o scene.exr --aov depth,id          distances and objects beside the colours
@@ -145,10 +145,6 @@ CommandTable render_table(RenderRequest& request) {
                   .type = "FILE",
                   .help = "writes what the rendering did as JSON; '-' is standard output",
                   .take = [&request](const std::string& name) { request.stats = name; }});
-  rows.push_back({.names = "--show",
-                  .type = "",
-                  .help = "shows the picture in the terminal, too",
-                  .take = into_flag("--show", request.show)});
   add_reproducible(rows, request);
   add_setting_rows(rows, request.script);
   return table;

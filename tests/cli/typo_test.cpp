@@ -74,6 +74,8 @@ TEST_CASE("an option for which there is something else is answered by that") {
     CHECK(run.exit_code == 2);
     CHECK(contains(run.err, "has no option --display: crt watch shows a picture in progress"));
   }
+  CHECK(contains(run_crt(folder, {"render", "a.crt", "--show"}).err,
+                 "has no option --show: crt render scene.crt -o - | chafa shows"));
 }
 
 TEST_CASE("a word too many is named") {
