@@ -58,6 +58,7 @@ the C++ headers and static libraries, which need the recommended packages.")
 
 set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME crt)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "ffmpeg")
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "ray tracer of analytic solids: command line
 ${about}
 .

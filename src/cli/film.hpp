@@ -1,12 +1,9 @@
-// A film is one file with all frames of an animation: a GIF, or a WebP or MP4 file that the program
-// ffmpeg makes.
+// A film is one file with all frames of an animation. The program ffmpeg makes it.
 #pragma once
 
 #include <crt/image.hpp>
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <vector>
+#include <string>
 
 namespace crt::cli {
 
@@ -17,13 +14,29 @@ struct FilmShape {
   double frames_per_second = 0;
 };
 
+/// A Film hands frames to ffmpeg.
 class Film {
  public:
-  virtual ~Film() = default;
-  /// Takes the next frame: 3 bytes a pixel, rows from the top. Throws Error (io).
-  virtual void add(const std::vector<std::uint8_t>& rgb) = 0;
+  /// Starts the program. Throws Error (io).
+  Film(std::filesystem::path file, const FilmShape& shape);
+  /// Ends the program and removes what it wrote, unless the film is finished.
+  ~Film();
+  Film(const Film&) = delete;
+  Film& operator=(const Film&) = delete;
+
+  /// Takes the next frame: what displays show of it, in front of black. Throws Error (io).
+  void add(const Image& image);
   /// Puts the film in its place. Without this call there is none. Throws Error (io).
-  virtual void finish() = 0;
+  void finish();
+
+ private:
+  void close_frames();
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  std::filesystem::path file_;
+  std::filesystem::path unfinished_;  ///< what ffmpeg writes, in the same folder
+  int process_ = 0;
+  int frames_ = -1;  ///< the end of a pipe
 };
 
 /// Says whether the ending of the name is a film's.
@@ -34,11 +47,5 @@ std::string film_endings();
 
 /// Finds out, before anything is rendered, whether the film can be made. Throws Error (io).
 void check_film(const std::filesystem::path& file);
-
-/// Begins a film.
-std::unique_ptr<Film> begin_film(const std::filesystem::path& file, const FilmShape& shape);
-
-/// Returns a picture's bytes for a film: as displays want them, in front of black.
-std::vector<std::uint8_t> film_frame(const Image& image);
 
 }  // namespace crt::cli

@@ -114,13 +114,6 @@ void add_quiet_row(std::vector<OptionRow>& rows, CommonRequest& request) {
                   .take = into_flag("--quiet", request.quiet)});
 }
 
-void add_display_row(std::vector<OptionRow>& rows, std::optional<tev::ViewerAddress>& display) {
-  rows.push_back({.names = "--display",
-                  .type = "HOST:PORT",
-                  .help = "sends the picture in progress to the viewer tev, which listens there",
-                  .take = [&display](const std::string& text) { display = parse_display(text); }});
-}
-
 void add_threads_row(std::vector<OptionRow>& rows, int& threads) {
   rows.push_back(
       {.names = "--threads",

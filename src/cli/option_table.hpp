@@ -55,8 +55,6 @@ void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request);
 void add_quiet_row(std::vector<OptionRow>& rows, CommonRequest& request);
 /// Adds the settings of a script.
 void add_setting_rows(std::vector<OptionRow>& rows, ScriptOptions& script);
-/// Adds the viewer that pictures are sent to.
-void add_display_row(std::vector<OptionRow>& rows, std::optional<tev::ViewerAddress>& display);
 void add_threads_row(std::vector<OptionRow>& rows, int& threads);
 void add_region_row(std::vector<OptionRow>& rows, std::optional<Region>& region,
                     const std::string& help);

@@ -198,11 +198,6 @@ int parse_sample_count(const std::string& option, const std::string& text) {
   return count;
 }
 
-tev::ViewerAddress parse_display(const std::string& text) {
-  if (std::optional<tev::ViewerAddress> address = tev::viewer_address(text)) return *address;
-  throw WrongValue("--display", "HOST:PORT, such as 127.0.0.1:14158", text);
-}
-
 std::string parse_ip_address(const std::string& option, const std::string& text) {
   const bool has_brackets = text.starts_with('[') && text.ends_with(']');
   std::string plain = has_brackets ? text.substr(1, text.size() - 2) : text;

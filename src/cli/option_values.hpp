@@ -56,9 +56,6 @@ int parse_threads(const std::string& text);
 /// Returns a power of 2 that Settings::max_samples can be.
 int parse_sample_count(const std::string& option, const std::string& text);
 
-/// Returns what "HOST:PORT" says. Without a port it is that of the viewer tev.
-tev::ViewerAddress parse_display(const std::string& text);
-
 /// Returns an IP address without the brackets that it may have.
 std::string parse_ip_address(const std::string& option, const std::string& text);
 /// Returns the name of a machine, or an IP address, as URLs have it.

@@ -130,6 +130,23 @@ std::string long_names_of(const std::string& option, const std::vector<std::stri
   return fmt::format("; did you mean {}?", text::enumerate(meant));
 }
 
+/// Says what does instead what an option sounds like that there is not.
+std::string instead_of(const std::string& option) {
+  struct Other {
+    std::string_view option;
+    const char* what;
+  };
+  constexpr Other others[] = {
+      {"--png", "the plot is an SVG file, which browsers show, and Inkscape converts"},
+      {"--show", "crt render scene.crt -o - | chafa shows a picture in a terminal"},
+      {"--display", "crt watch shows a picture in progress in its file, which viewers follow"},
+  };
+  for (const Other& other : others) {
+    if (other.option == option) return fmt::format(": {}", other.what);
+  }
+  return "";
+}
+
 /// Says what is wrong with the first word that is no option and has no place.
 std::string complaint_about_unknown(const CLI::App& app, int argc, const char* const* argv) {
   const std::vector<std::string> unknown = app.remaining(true);
@@ -147,6 +164,8 @@ std::string complaint_about_unknown(const CLI::App& app, int argc, const char* c
   for (const OptionDescription& option : command.options)
     names.insert(names.end(), option.names.begin(), option.names.end());
   const std::string name = word.substr(0, word.find('='));
+  if (const std::string instead = instead_of(name); !instead.empty())
+    return fmt::format("'{}' has no option {}{}", title, name, instead);
   constexpr std::size_t of_one_letter = 2;
   return fmt::format(
       "'{}' has no option {}{}", title, name,

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "cli/command_description.hpp"
-#include "tev/tev_viewer.hpp"
 
 namespace crt::cli {
 
@@ -61,13 +60,10 @@ struct RenderRequest : PictureRequest {
   std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
-  bool show = false;                          ///< in the terminal
-  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress
 };
 
 struct WatchRequest : PictureRequest {
   std::filesystem::path scene;
-  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress
 };
 
 /// A FarmRequest holds what all verbs of the command take. `given` has the options by name.
@@ -102,9 +98,8 @@ struct CheckRequest : CommonRequest {
 
 struct TradeRequest : CommonRequest {
   std::filesystem::path scene;
-  /// The command writes this name with .csv and .svg, and with .png if asked for.
+  /// The command writes this name with .csv and .svg.
   std::filesystem::path output;
-  bool png = false;
   /// Measures this part only. Without it, bands with about `pixels` pixels together are measured.
   std::optional<Region> region;
   double pixels = 30000;
@@ -147,7 +142,6 @@ struct StudioRequest : CommonRequest {
   // Without a certificate it is not encrypted. The key may be in the same file.
   std::filesystem::path tls_certificate;
   std::filesystem::path tls_key;
-  std::optional<tev::ViewerAddress> display;  ///< of what shows pictures in progress, too
   int threads = 0;
   bool embed = false;  ///< in a frame of another page, until standard input ends
 };

@@ -22,7 +22,7 @@ half a minute to some minutes, which --most-seconds and --pixels make less.
 Examples:
   crt trade scene.crt                      scene-trade.csv and scene-trade.svg
   crt trade scene.crt --budget 10          and the most accurate setting for 10 seconds a picture
-  crt trade scene.crt --error 0.5 --png    and the fastest within half a step; the plot also as .png
+  crt trade scene.crt --error 0.5          and the fastest within half a step
   crt trade film.crt --time 12 --region 100,80,200,100 -o part)";
 
 }  // namespace
@@ -54,10 +54,6 @@ CommandTable trade_table(TradeRequest& request) {
                   .take = [&request](const std::string& text) {
                     request.error = parse_positive("--error", text);
                   }});
-  rows.push_back({.names = "--png",
-                  .type = "",
-                  .help = "writes the plot as a picture, too",
-                  .take = into_flag("--png", request.png)});
   add_region_row(rows, request.region, "measures only this part of the picture");
   rows.push_back({.names = "--pixels",
                   .type = "N",
@@ -240,7 +236,6 @@ Examples:
                         .help = "lets pages of this machine show it in a frame, as notebooks do, "
                                 "and ends when standard input does",
                         .take = into_flag("--embed", request.embed)});
-  add_display_row(table.rows, request.display);
   add_threads_row(table.rows, request.threads);
   return table;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <crt/job.hpp>
 #include <crt/prepared_scene.hpp>
 #include <thread>
@@ -31,36 +32,30 @@ ScriptResult run_scene(const ScriptSource& script, const ScriptOptions& options,
 
 namespace {
 
-/// Renders, and shows the picture meanwhile if there is a viewer. What that does or fails to do
-/// changes nothing else.
-Image render_shown(const PreparedScene& prepared, const RenderOptions& options,
-                   const PictureTask& task) {
-  if (task.viewer == nullptr || task.viewer->is_lost()) return render(prepared, options);
+/// Renders, and hands over the picture in progress if it is wanted.
+Image render_seen(const PreparedScene& prepared, const RenderOptions& options,
+                  const PictureTask& task) {
+  if (!task.in_progress) return render(prepared, options);
   constexpr std::chrono::milliseconds end_interval{5};
-  constexpr int looks_of_a_picture = 40;
+  constexpr double least_pause = 2;
+  constexpr double pause_of_work = 10;  // what becomes of a picture costs a tenth at most
   const crt::RenderJob job(prepared, options);
-  for (int look = 1; !job.finished(); ++look) {
-    std::this_thread::sleep_for(end_interval);
-    if (look % looks_of_a_picture == 0 && !task.viewer->is_lost())
-      task.viewer->show(task.name, job.snapshot());
+  double next = least_pause;
+  for (const Stopwatch watch; !job.finished(); std::this_thread::sleep_for(end_interval)) {
+    const double begin = watch.seconds();
+    if (begin < next) continue;
+    task.in_progress(job.snapshot());
+    const double end = watch.seconds();
+    next = end + std::max(least_pause, pause_of_work * (end - begin));
   }
-  Image image = job.wait();
-  task.viewer->show(task.name, image);
-  task.viewer->finish();
-  return image;
-}
-
-void warn_of_viewer(const PictureTask& task, Reporter& reporter) {
-  if (task.viewer == nullptr) return;
-  if (const auto failure = task.viewer->failure()) reporter.warn(*failure);
+  return job.wait();
 }
 
 Image trace(const Scene& scene, const PictureTask& task, const FormatLoader& loader,
-            std::vector<std::string>& warnings, Reporter& reporter) {
+            std::vector<std::string>& warnings) {
   const auto go_on = [&] { return task.go_on() && !loader.has_failed(); };
   const PreparedScene prepared =
       prepare(scene, {.go_on = go_on, .max_primitives = task.request.max_primitives});
-  warn_of_viewer(task, reporter);
   RenderOptions options = task.request.render;
   options.log = [&](LogLevel level, std::string_view line) {
     if (level == LogLevel::warning) warnings.emplace_back(line);
@@ -70,7 +65,7 @@ Image trace(const Scene& scene, const PictureTask& task, const FormatLoader& loa
     progress.update(share);
     return go_on();
   };
-  return render_shown(prepared, options, task);
+  return render_seen(prepared, options, task);
 }
 
 }  // namespace
@@ -79,8 +74,7 @@ Image render_scene(const Scene& scene, const PictureTask& task, Reporter& report
   FormatLoader loader(task.picture);
   std::vector<std::string> warnings;
   try {
-    Image image = trace(scene, task, loader, warnings, reporter);
-    warn_of_viewer(task, reporter);
+    Image image = trace(scene, task, loader, warnings);
     loader.finish();
     for (const std::string& warning : warnings) reporter.warn(warning);
     return image;

@@ -12,7 +12,6 @@
 #include "cli/progress.hpp"
 #include "cli/reporter.hpp"
 #include "cli/script_source.hpp"
-#include "tev/tev_viewer.hpp"
 
 namespace crt::cli {
 
@@ -28,8 +27,8 @@ struct PictureTask {
   std::filesystem::path picture;  ///< whose ending says the format
   std::string name;               ///< for messages
   ProgressStyle style = ProgressStyle::none;
-  std::function<bool()> go_on;       ///< false gives it up
-  tev::TevViewer* viewer = nullptr;  ///< shows the picture in progress under the name
+  std::function<bool()> go_on;               ///< false gives it up
+  std::function<void(Image)> in_progress{};  ///< takes the picture now and then, unless it is empty
 };
 
 /// Prepares and renders a scene, and loads what writing the picture needs meanwhile. Warnings are

@@ -13,7 +13,6 @@
 #include "cli/picture_renderer.hpp"
 #include "cli/render_plan.hpp"
 #include "cli/stats_json.hpp"
-#include "cli/terminal_picture.hpp"
 
 namespace crt::cli {
 
@@ -31,7 +30,7 @@ class RenderJob {
     if (request_.output == standard_stream && isatty(STDOUT_FILENO) != 0) {
       reporter_.add(ErrorCode::invalid_argument,
                     "standard output is a terminal, which shows no picture file: send it "
-                    "elsewhere, or use --show",
+                    "elsewhere, such as by | chafa, which does",
                     ExitCode::usage);
       return reporter_.finish();
     }
@@ -39,7 +38,6 @@ class RenderJob {
     if (!pictures) return reporter_.finish();
     const InterruptScope interrupt;
     interrupt_ = &interrupt;
-    if (request_.display) viewer_.emplace(*request_.display);
     bool all_done = true;
     for (const PlannedPicture& picture : *pictures) {
       all_done = render_planned(picture) && all_done;
@@ -88,7 +86,7 @@ class RenderJob {
   }
 
   bool render_film(const PlannedPicture& planned) {
-    std::unique_ptr<Film> film;
+    std::optional<Film> film;
     FilmShape shape{.frames_per_second = request_.frames_per_second};
     for (int frame = request_.frames->first; frame <= request_.frames->last; ++frame) {
       const std::string name = fmt::format("{} ({})", planned.output.string(), frame);
@@ -98,10 +96,10 @@ class RenderJob {
       if (!film) {
         shape.width = image->width();
         shape.height = image->height();
-        film = begin_film(planned.output, shape);
+        film.emplace(planned.output, shape);
       }
       check_frame(*image, shape, frame);
-      film->add(film_frame(*image));
+      film->add(*image);
       if (!request_.keep_frames.empty()) {
         const fs::path kept = request_.keep_frames / planned.output.stem();
         image->write(frame_path(kept.string() + ".png", frame),
@@ -118,9 +116,6 @@ class RenderJob {
   }
 
   static void check_frame(const Image& image, const FilmShape& shape, int frame) {
-    constexpr int longest_side = 65535;  // of a GIF
-    if (image.width() > longest_side || image.height() > longest_side)
-      throw Error(ErrorCode::invalid_argument, "a film has at most 65535 pixels across and down");
     if (image.width() == shape.width && image.height() == shape.height) return;
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("the frames of a film have one size: that of frame {} has {} x {} "
@@ -164,8 +159,7 @@ class RenderJob {
                            .picture = output == standard_stream ? usual_name() : output,
                            .name = name,
                            .style = style_,
-                           .go_on = go_on,
-                           .viewer = viewer_ ? &*viewer_ : nullptr};
+                           .go_on = go_on};
     Image image = render_scene(*scene, task, reporter_);
     image.stats().parse_seconds = parse_seconds;
     return image;
@@ -190,7 +184,6 @@ class RenderJob {
   /// Reports a picture that is done.
   void finish(const PlannedPicture& planned, const Image& image, const std::string& name,
               std::optional<int> frame) {
-    if (request_.show) reporter_.print(terminal_picture(image));
     reporter_.note(summary(name, image));
     warn_of_picture(image);
     reports_.push_back({.script = planned.script.name(),
@@ -229,7 +222,6 @@ class RenderJob {
   Reporter reporter_;
   ProgressStyle style_;
   const InterruptScope* interrupt_ = nullptr;
-  std::optional<tev::TevViewer> viewer_;
   Projection projection_{};
   bool has_warned_ = false;
   std::vector<PictureReport> reports_;

@@ -14,7 +14,7 @@ constexpr std::string_view render_footer =
     R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, gamma
 applied), .exr and .hdr (linear light). Nothing is left behind under its name unless it is whole. A
 link is followed, and what is a device or a pipe is written to as it is.
-With --frames, .gif, .webp and .mp4 are films of all frames. The last two are made by ffmpeg.
+With --frames, .gif, .webp and .mp4 are films of all frames, which the program ffmpeg makes.
 An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo,
 and of each pixel how many samples it has (samples) and how far it may be from the truth (error).
 As a script, - is standard input. As the picture, it is standard output, which gets PNG, or EXR with
@@ -24,7 +24,7 @@ Examples:
   crt render scene.crt -o draft.png --width 320 --height 240
   crt render scene.crt -o corner.png --region 0,0,64,64     only that part of the picture
   crt render a.crt b.crt -o pictures                        pictures/a.png and pictures/b.png
-  crt render - -o - <scene.crt | display                    between programs
+  crt render - -o - <scene.crt | chafa                      between programs: shown in a terminal
   crt render film.crt --frames 1-48                         film_0001.png to film_0048.png
   crt render film.crt --frames 1-48 -o film.gif --fps 12    one film of four seconds
   crt render scene.crt -o scene.exr --aov depth,id          distances and objects beside the colours
@@ -32,9 +32,10 @@ Examples:
 
 constexpr std::string_view watch_footer =
     R"(Renders the script, and again whenever it changes or anything that it imports or reads. First
-comes a draft with an eighth of the pixels across and down, then the picture itself. The file is
-replaced at once, so that a viewer never sees a part of it. Errors of the script are reported, and
-the picture stays until they are mended. Ctrl-C ends it, with code 0.
+comes a draft with an eighth of the pixels across and down, then the picture: in progress, if it
+takes seconds, and whole. The file is replaced at once, so that a viewer that follows it never sees
+a part of it. Errors of the script are reported, and the picture stays until they are mended. Ctrl-C
+ends it, with code 0.
 
 Examples:
   crt watch scene.crt                       keeps scene.png up to date
@@ -144,11 +145,6 @@ CommandTable render_table(RenderRequest& request) {
                   .type = "FILE",
                   .help = "writes what the rendering did as JSON; '-' is standard output",
                   .take = [&request](const std::string& name) { request.stats = name; }});
-  rows.push_back({.names = "--show",
-                  .type = "",
-                  .help = "shows the picture in the terminal, too",
-                  .take = into_flag("--show", request.show)});
-  add_display_row(rows, request.display);
   add_reproducible(rows, request);
   add_setting_rows(rows, request.script);
   return table;
@@ -165,7 +161,6 @@ CommandTable watch_table(WatchRequest& request) {
   add_script_rows(rows, request);
   add_threads_row(rows, request.render.threads);
   add_limits(rows, request);
-  add_display_row(rows, request.display);
   add_reproducible(rows, request);
   add_setting_rows(rows, request.script);
   return table;

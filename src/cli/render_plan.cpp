@@ -50,7 +50,6 @@ void refuse_senseless(const RenderRequest& request) {
   refuse_if(to_stream && request.frames, "standard output takes one picture, not --frames");
   refuse_if(to_stream && request.stats == standard_stream,
             "standard output takes the picture or the statistics: name a file for one of them");
-  refuse_if(to_stream && request.show, "standard output takes the picture or what --show shows");
   const bool film = is_film(request.output);
   refuse_if(film && !request.frames,
             fmt::format("'{}' is a film: say of which frames, such as --frames 1-48",

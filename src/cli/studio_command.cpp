@@ -63,7 +63,6 @@ std::vector<std::string> studio_words(const StudioRequest& request, const fs::pa
   for (const std::string& name : request.names) add("name", name);
   add("tls-cert", request.tls_certificate.string());
   add("tls-key", request.tls_key.string());
-  add("display", request.display ? tev::text_of(*request.display) : "");
   add("embed", request.embed ? "yes" : "");
   return words;
 }

@@ -130,15 +130,9 @@ class Trade {
 
   void write(const TradeReport& report) {
     write_file(with_ending(".csv"), report_csv(report));
-    const Drawing plot = report_plot(report);
-    write_file(with_ending(".svg"), plot.svg());
-    if (request_.png) {
-      constexpr double pixels_per_unit = 2;
-      plot.picture(pixels_per_unit).write(with_ending(".png"), {.reproducible = true});
-    }
-    reporter_.note(fmt::format(
-        "{}: the table; {}: the plot{}", with_ending(".csv").string(), with_ending(".svg").string(),
-        request_.png ? fmt::format("; {}: the same", with_ending(".png").string()) : ""));
+    write_file(with_ending(".svg"), report_plot(report));
+    reporter_.note(fmt::format("{}: the table; {}: the plot", with_ending(".csv").string(),
+                               with_ending(".svg").string()));
   }
 
   void measure(TradeReport& report) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include "cli/trade_report.hpp"
 
@@ -12,21 +13,98 @@ namespace crt::cli {
 
 namespace {
 
-constexpr Ink frame_ink = {136, 136, 136};
-constexpr Ink grid_ink = {221, 221, 221};
-constexpr Ink uncertain_ink = {214, 137, 16};
-constexpr Ink best_ink = {30, 30, 30};
+/// A Place has x to the right and y down.
+struct Place {
+  double x = 0;
+  double y = 0;
+};
+
+/// An Ink is a colour as SVG writes it.
+using Ink = std::string_view;
+
+constexpr Ink frame_ink = "#888888";
+constexpr Ink grid_ink = "#dddddd";
+constexpr Ink uncertain_ink = "#d68910";
+constexpr Ink best_ink = "#1e1e1e";
+constexpr Ink text_ink = "#1e1e1e";
 
 struct FamilyInk {
   Family family;
   Ink ink;
 };
 /// The script's own setting is drawn last, as it may be one of the others, too.
-constexpr FamilyInk family_inks[] = {{Family::grid, {31, 95, 168}},
-                                     {Family::target, {192, 57, 43}},
-                                     {Family::depth, {46, 139, 87}},
-                                     {Family::precision, {142, 68, 173}},
-                                     {Family::as_given, {30, 30, 30}}};
+constexpr FamilyInk family_inks[] = {{Family::grid, "#1f5fa8"},
+                                     {Family::target, "#c0392b"},
+                                     {Family::depth, "#2e8b57"},
+                                     {Family::precision, "#8e44ad"},
+                                     {Family::as_given, "#1e1e1e"}};
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&') {
+      result += "&amp;";
+    } else if (c == '<') {
+      result += "&lt;";
+    } else if (c == '>') {
+      result += "&gt;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+/// A Drawing is the text of an SVG file.
+class Drawing {
+ public:
+  /// Begins with a white area.
+  Drawing(double width, double height) {
+    constexpr double font_size = 11;
+    svg_ = fmt::format(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' "
+        "font-family='sans-serif' font-size='{2}'>\n<rect width='100%' height='100%' "
+        "fill='white'/>\n",
+        width, height, font_size);
+  }
+
+  void line(const Place& from, const Place& to, Ink ink, double width = 1) {
+    curve({from, to}, ink, width);
+  }
+
+  void curve(const std::vector<Place>& places, Ink ink, double width) {
+    std::string corners;
+    for (const Place& place : places) corners += fmt::format(" {:.1f},{:.1f}", place.x, place.y);
+    svg_ += fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='{}'/>\n",
+                        corners.substr(1), ink, width);
+  }
+
+  void disc(const Place& center, double radius, Ink ink) {
+    svg_ += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}'/>\n", center.x, center.y,
+                        radius, ink);
+  }
+
+  void ring(const Place& center, double radius, Ink ink) {
+    svg_ += fmt::format(
+        "<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='none' stroke='{}' stroke-width='1.2'/>\n",
+        center.x, center.y, radius, ink);
+  }
+
+  /// Writes a text. `place` is on the line that it stands on, and at the text's `anchor`: "start",
+  /// "middle" or "end".
+  void text(const Place& place, const std::string& text, std::string_view anchor = "start",
+            bool upwards = false) {
+    const std::string turn =
+        upwards ? fmt::format(" transform='rotate(-90 {:.1f} {:.1f})'", place.x, place.y) : "";
+    svg_ += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' fill='{}'{}>{}</text>\n",
+                        place.x, place.y, anchor, text_ink, turn, escaped(text));
+  }
+
+  std::string svg() const { return svg_ + "</svg>\n"; }
+
+ private:
+  std::string svg_;
+};
 
 /// Decades are the powers of ten from `low` to `high`.
 struct Decades {
@@ -101,19 +179,18 @@ class Panel {
     for (int power = seconds_.low; power <= seconds_.high; ++power) {
       const Place foot = at(elementary::pow(10.0, power), 0);
       drawing_.line(foot, {foot.x, corner_.y + top}, grid_ink);
-      drawing_.text({foot.x, foot.y + text_below}, power_of_ten(power), Anchor::middle);
+      drawing_.text({foot.x, foot.y + text_below}, power_of_ten(power), "middle");
     }
     for (int power = errors_.low; power <= errors_.high; ++power) {
       const Place foot = at(0, elementary::pow(10.0, power));
       drawing_.line(foot, {corner_.x + right, foot.y}, grid_ink);
-      drawing_.text({foot.x - 6, foot.y + 4}, power_of_ten(power), Anchor::end);
+      drawing_.text({foot.x - 6, foot.y + 4}, power_of_ten(power), "end");
     }
     drawing_.curve({corner(left, top), corner(right, top), corner(right, bottom),
                     corner(left, bottom), corner(left, top)},
                    frame_ink, 1);
-    drawing_.text(corner((left + right) / 2, bottom + 34), "seconds, whole picture",
-                  Anchor::middle);
-    drawing_.text(corner(14, (top + bottom) / 2), "error, steps of 8 bits", Anchor::middle, true);
+    drawing_.text(corner((left + right) / 2, bottom + 34), "seconds, whole picture", "middle");
+    drawing_.text(corner(14, (top + bottom) / 2), "error, steps of 8 bits", "middle", true);
   }
 
   /// Errors below this line are those of the reference.
@@ -184,7 +261,7 @@ void draw_legend(const TradeReport& report, const Place& corner, Drawing& drawin
 
 }  // namespace
 
-Drawing report_plot(const TradeReport& report) {
+std::string report_plot(const TradeReport& report) {
   constexpr double legend_height = 44;
   Drawing drawing(2 * Panel::width, Panel::height + legend_height);
   const std::string scene = std::filesystem::path(report.scene).filename().string();
@@ -193,7 +270,7 @@ Drawing report_plot(const TradeReport& report) {
   Panel(report, &PictureError::p999, {Panel::width, 0}, drawing)
       .draw(size + ": 99.9 % of the pixels");
   draw_legend(report, {58, Panel::height + 10}, drawing);
-  return drawing;
+  return drawing.svg();
 }
 
 }  // namespace crt::cli

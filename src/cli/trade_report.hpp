@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/drawing.hpp"
 #include "cli/trade_ladder.hpp"
 #include "cli/trade_measure.hpp"
 
@@ -56,7 +55,7 @@ std::string report_text(const TradeReport& report, const TradeQuestion& question
 /// Returns a line for each rung, after one of names.
 std::string report_csv(const TradeReport& report);
 
-/// Returns a plot of seconds against both errors.
-Drawing report_plot(const TradeReport& report);
+/// Returns a plot of seconds against both errors, as an SVG file has it.
+std::string report_plot(const TradeReport& report);
 
 }  // namespace crt::cli

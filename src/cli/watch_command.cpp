@@ -4,6 +4,7 @@
 #include <chrono>
 #include <crt/draft.hpp>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -26,18 +27,15 @@ constexpr milliseconds interval{100};
 /// A draft has a pixel for so many, across and down.
 constexpr int draft_step = 8;
 
-/// Returns a picture with the sides of `settings` that shows another one with fewer pixels.
-Image enlarged(const Image& small, const Settings& settings) {
-  Image large(settings.width, settings.height);
-  large.set_settings(settings);
-  for (int y = 0; y < large.height(); ++y) {
-    const auto from_y = static_cast<int>(std::int64_t{y} * small.height() / large.height());
-    for (int x = 0; x < large.width(); ++x) {
-      const auto from_x = static_cast<int>(std::int64_t{x} * small.width() / large.width());
-      large.set(x, y, small.at(from_x, from_y));
+/// Shows a draft, which has fewer pixels, where a picture has nothing yet.
+void put_behind(Image& picture, const Image& draft) {
+  for (int y = 0; y < picture.height(); ++y) {
+    const auto from_y = static_cast<int>(std::int64_t{y} * draft.height() / picture.height());
+    for (int x = 0; x < picture.width(); ++x) {
+      const auto from_x = static_cast<int>(std::int64_t{x} * draft.width() / picture.width());
+      if (picture.at(x, y) == Color{0, 0, 0, 0}) picture.set(x, y, draft.at(from_x, from_y));
     }
   }
-  return large;
 }
 
 class Watch {
@@ -92,8 +90,6 @@ class Watch {
   /// Runs the script once and makes what it shows. Whatever is wrong is reported.
   void make_pictures() {
     Reporter reporter(request_);
-    // A viewer may be started, or come back, while the script is watched.
-    if (request_.display && (!viewer_ || viewer_->is_lost())) viewer_.emplace(*request_.display);
     files_.clear();
     last_look_ = Clock::now();
     has_changed_ = false;
@@ -125,14 +121,20 @@ class Watch {
     const double parse_seconds = watch.seconds();
     const Settings& settings = scene->settings;
     const WriteOptions how{.reproducible = request_.reproducible};
+    std::function<void(Image)> in_progress;
     if (std::min(settings.width, settings.height) > draft_step) {
       const Image draft = render_one(draft_of(*scene, draft_step), ProgressStyle::none, reporter);
-      Image large = enlarged(draft, settings);
-      large.write(output_, how);
-      if (viewer_) viewer_->show(output_.string(), std::move(large));
+      in_progress = [this, draft, how](Image picture) {
+        put_behind(picture, draft);
+        picture.write(output_, how);
+      };
+      Image nothing_yet(settings.width, settings.height);
+      std::ranges::fill(nothing_yet.pixels(), 0.0F);
+      nothing_yet.set_settings(settings);
+      in_progress(std::move(nothing_yet));
       reporter.note(fmt::format("{}: a draft, {:.2f} s", output_.string(), watch.seconds()));
     }
-    Image image = render_one(*scene, style_, reporter, viewer_ ? &*viewer_ : nullptr);
+    Image image = render_one(*scene, style_, reporter, in_progress);
     image.stats().parse_seconds = parse_seconds;
     image.write(output_, how);
     reporter.note(summary(output_.string(), image));
@@ -140,14 +142,14 @@ class Watch {
   }
 
   Image render_one(const Scene& scene, ProgressStyle style, Reporter& reporter,
-                   tev::TevViewer* viewer = nullptr) {
+                   std::function<void(Image)> in_progress = {}) {
     return render_scene(scene,
                         {.request = request_,
                          .picture = output_,
                          .name = output_.string(),
                          .style = style,
                          .go_on = [this] { return !is_over(); },
-                         .viewer = viewer},
+                         .in_progress = std::move(in_progress)},
                         reporter);
   }
 
@@ -168,7 +170,6 @@ class Watch {
   ProgressStyle style_;
   fs::path output_;
   WatchedFiles files_;
-  std::optional<tev::TevViewer> viewer_;
   const InterruptScope* interrupt_ = nullptr;
   Clock::time_point last_look_{};
   bool has_changed_ = false;

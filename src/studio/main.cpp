@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,7 +19,6 @@
 #include "studio/studio_client.hpp"
 #include "studio/tls.hpp"
 #include "studio/web_server.hpp"
-#include "tev/tev_viewer.hpp"
 
 namespace {
 
@@ -33,7 +31,6 @@ struct Task {
   std::string folder = ".";
   StudioOptions studio;
   WebServerOptions server;
-  std::optional<crt::tev::ViewerAddress> display{};
   std::string certificate;
   std::string key;
 };
@@ -56,8 +53,6 @@ bool take(Task& task, std::string_view name, const std::string& value) {
     task.certificate = value;
   } else if (name == "tls-key") {
     task.key = value;
-  } else if (name == "display") {
-    task.display = crt::tev::viewer_address(value);
   } else if (name == "embed") {
     task.server.ends_with_input = task.server.may_be_framed = value == "yes";
   } else {
@@ -76,31 +71,6 @@ std::optional<Task> task_of(int argc, char** argv) {
   }
   return task;
 }
-
-/// A Display sends pictures of all pages to a viewer.
-class Display {
- public:
-  explicit Display(const crt::tev::ViewerAddress& address) : address_(address), viewer_(address) {}
-
-  /// Any thread may call it.
-  void show(const std::string& name, const crt::Image& image, bool is_whole) {
-    const std::lock_guard lock(mutex_);
-    if (const std::optional<std::string> failure = viewer_->failure()) {
-      if (*failure != last_failure_) std::fprintf(stderr, "crt: warning: %s\n", failure->c_str());
-      last_failure_ = *failure;
-      // It may be started, or come back. Whole pictures are no more than it can be asked for.
-      if (!is_whole) return;
-      viewer_.emplace(address_);
-    }
-    viewer_->show(name, image);
-  }
-
- private:
-  const crt::tev::ViewerAddress address_;
-  std::mutex mutex_;
-  std::optional<crt::tev::TevViewer> viewer_;
-  std::string last_failure_;
-};
 
 /// Returns what browsers call the server in URLs, wherever they are.
 std::vector<std::string> hosts_of(const WebServerOptions& options) {
@@ -132,13 +102,6 @@ int serve(Task task) {
   options.files = page_files();
   if (!task.certificate.empty())
     options.transport = make_tls(task.certificate, task.key.empty() ? task.certificate : task.key);
-  std::optional<Display> display;
-  if (task.display) {
-    display.emplace(*task.display);
-    task.studio.show = [&](const std::string& name, const crt::Image& image, bool is_whole) {
-      display->show(name, image, is_whole);
-    };
-  }
   const auto pages = std::make_shared<OpenPages>();
   WebServer server(options, [&](std::shared_ptr<Connection> connection) {
     return make_studio_client(std::move(connection), folder, pages, task.studio);

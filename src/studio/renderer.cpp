@@ -318,11 +318,7 @@ void Renderer::render_whole() {
     const Clock::time_point look = Clock::now();
     if (look - last_look < interval) continue;
     say(Phase::rendering, job.progress());
-    if (may_send() && !job.finished()) {
-      const Image image = job.snapshot();
-      send(PictureKind::progress, image);
-      if (events_.colors && !is_geometry) events_.colors(revision_, image, false);
-    }
+    if (may_send() && !job.finished()) send(PictureKind::progress, job.snapshot());
     last_look = Clock::now();
     interval = std::max<Clock::duration>(look_interval, looking_pause * (last_look - look));
   }
@@ -342,7 +338,6 @@ void Renderer::finish(const std::shared_ptr<const Image>& image) {
   }
   send(is_part ? PictureKind::progress : PictureKind::final, *image);
   events_.finished(revision_, *image);
-  if (events_.colors && !is_geometric(options_.channel)) events_.colors(revision_, *image, true);
   say(Phase::done, 1);
 }
 

@@ -58,8 +58,6 @@ struct RenderEvents {
   std::function<void(const View&)> scene;
   std::function<void(const Revision&, const Image&)> finished;
   std::function<void(const std::string& line)> print;
-  /// Comes with pictures in progress and whole ones, as the render has them, if it is not empty.
-  std::function<void(const Revision&, const Image&, bool is_whole)> colors{};
 };
 
 class Renderer {

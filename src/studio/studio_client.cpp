@@ -55,7 +55,7 @@ class StudioClient : public ViewClient {
  public:
   StudioClient(std::shared_ptr<Connection> connection, std::shared_ptr<const Folder> folder,
                std::shared_ptr<OpenPages> pages, const StudioOptions& options)
-      : ViewClient(std::move(connection), options.threads, options.show),
+      : ViewClient(std::move(connection), options.threads),
         folder_(std::move(folder)),
         pages_(std::move(pages)),
         page_(make_token()),

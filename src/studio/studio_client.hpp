@@ -2,8 +2,6 @@
 // pictures. The messages are in docs/studio.md.
 #pragma once
 
-#include <crt/image.hpp>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -16,9 +14,6 @@ namespace crt::studio {
 struct StudioOptions {
   std::string script;  ///< what the page opens, relative to the folder, or empty
   int threads = 0;
-  /// Gets the pictures of all pages, too, in progress and whole, if it is not empty. Any thread
-  /// calls it.
-  std::function<void(const std::string& name, const Image&, bool is_whole)> show{};
 };
 
 std::unique_ptr<Client> make_studio_client(std::shared_ptr<Connection> connection,

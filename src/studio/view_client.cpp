@@ -3,7 +3,6 @@
 #include <crt/error.hpp>
 #include <crt/validate.hpp>
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -25,8 +24,8 @@ constexpr text::JsonLimits message_limits{.depth = 8, .values = 100'000};
 
 }  // namespace
 
-ViewClient::ViewClient(std::shared_ptr<Connection> connection, int threads, Show show)
-    : connection_(std::move(connection)), renderer_(events(std::move(show)), threads) {
+ViewClient::ViewClient(std::shared_ptr<Connection> connection, int threads)
+    : connection_(std::move(connection)), renderer_(events(), threads) {
   on_while_open("camera", [this](const json& message) { set_camera(message); });
   on_while_open("acknowledge", [this](const json& message) {
     renderer_.acknowledge(text::whole_number<std::uint32_t>(message.at("picture")));
@@ -85,24 +84,16 @@ json ViewClient::id_of(const json& message) {
   return id;
 }
 
-RenderEvents ViewClient::events(Show show) {
-  RenderEvents events{
-      .picture = [this](const EncodedPicture& picture) { send_picture(picture); },
-      .state = [this](const RenderState& state) { send(state_message(state)); },
-      .scene = [this](const View& view) { send(scene_message(view)); },
-      .finished = [this](const Revision& revision,
-                         const Image& image) { send(finished_message(revision, image)); },
-      .print =
-          [this](const std::string& line) {
-            send({{"type", "print"}, {"line", line}});
-          }};
-  if (show) {
-    events.colors = [show = std::move(show)](const Revision& revision, const Image& image,
-                                             bool is_whole) {
-      show(std::filesystem::path(revision.name).filename().string(), image, is_whole);
-    };
-  }
-  return events;
+RenderEvents ViewClient::events() {
+  return {.picture = [this](const EncodedPicture& picture) { send_picture(picture); },
+          .state = [this](const RenderState& state) { send(state_message(state)); },
+          .scene = [this](const View& view) { send(scene_message(view)); },
+          .finished = [this](const Revision& revision,
+                             const Image& image) { send(finished_message(revision, image)); },
+          .print =
+              [this](const std::string& line) {
+                send({{"type", "print"}, {"line", line}});
+              }};
 }
 
 void ViewClient::send(const json& message) const {

@@ -17,11 +17,7 @@ namespace crt::studio {
 
 class ViewClient : public Client {
  public:
-  /// Takes a picture that is rendered, under its script's name: in progress, or whole.
-  using Show = std::function<void(const std::string& name, const Image&, bool is_whole)>;
-
-  /// `show` may be empty. The renderer's thread calls it.
-  ViewClient(std::shared_ptr<Connection> connection, int threads, Show show = {});
+  ViewClient(std::shared_ptr<Connection> connection, int threads);
 
   void receive(std::string_view text) override;
 
@@ -44,7 +40,7 @@ class ViewClient : public Client {
   Renderer& renderer() { return renderer_; }
 
  private:
-  RenderEvents events(Show show);
+  RenderEvents events();
   void handle(const nlohmann::json& message);
   void send_picture(const EncodedPicture& picture);
   void set_camera(const nlohmann::json& message);

@@ -154,6 +154,14 @@ int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string
   return exit_code_of(spawn_crt(streams, arguments));
 }
 
+std::string shell(const TemporaryFolder& folder, const std::string& command) {
+  const std::string line =
+      "cd '" + folder.path().string() + "' && { " + command + "; } >shell.txt 2>&1";
+  // NOLINTNEXTLINE(cert-env33-c): the words are the tests' own
+  require(std::system(line.c_str()) == 0, command.c_str());
+  return folder.read("shell.txt");
+}
+
 bool has_terminals() {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal >= 0) close(terminal);

@@ -59,6 +59,9 @@ Outcome run_crt_without_output(const TemporaryFolder& folder,
 /// Runs `crt` with all standard streams closed, and returns its exit code.
 int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
+/// Returns what a command of the shell prints in the folder. It must end with success.
+std::string shell(const TemporaryFolder& folder, const std::string& command);
+
 /// Says whether this machine has terminals to give. A container without /dev/pts has none.
 bool has_terminals();
 

@@ -35,7 +35,5 @@ TEST_CASE("a wrong script and a PNG file load no OpenImageIO, and other formats 
   CHECK_FALSE(loads_openimageio(folder, {"render", "wrong.crt", "-o", "wrong.jpg"}, 1));
   CHECK_FALSE(loads_openimageio(folder, {"render", "ball.crt"}, 0));
   CHECK_FALSE(loads_openimageio(folder, {"render", "ball.crt", "-o", "ball.xyz"}, 2));
-  CHECK_FALSE(
-      loads_openimageio(folder, {"render", "ball.crt", "--frames", "1-2", "-o", "a.gif"}, 0));
   CHECK(loads_openimageio(folder, {"render", "ball.crt", "-o", "ball.jpg"}, 0));
 }

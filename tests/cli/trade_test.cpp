@@ -37,13 +37,12 @@ constexpr int rmse_column = 3;
 TEST_CASE("crt trade measures a ladder: more samples cost more and are nearer to the truth") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
-  const Outcome run = run_crt(
-      folder, {"trade", "ball.crt", "--width", "64", "--height", "48", "--budget", "1000",
-               "--error", "200", "--reference-samples", "1024", "--png", "--most-seconds", "1000"});
+  const Outcome run =
+      run_crt(folder, {"trade", "ball.crt", "--width", "64", "--height", "48", "--budget", "1000",
+                       "--error", "200", "--reference-samples", "1024", "--most-seconds", "1000"});
   CAPTURE(run.err);
   REQUIRE(run.exit_code == 0);
-  CHECK(folder.names() ==
-        std::vector<std::string>{"ball-trade.csv", "ball-trade.png", "ball-trade.svg", "ball.crt"});
+  CHECK(folder.names() == std::vector<std::string>{"ball-trade.csv", "ball-trade.svg", "ball.crt"});
   const std::string csv = folder.read("ball-trade.csv");
   const double coarse = number_of(csv, "--supersampling 1", rmse_column);
   const double fine = number_of(csv, "--supersampling 16", rmse_column);
@@ -89,6 +88,7 @@ TEST_CASE("crt trade refuses what it cannot do, and then writes nothing") {
   fails({"ball.crt", "--reference-samples", "100"}, 2, "a power of 2");
   fails({"ball.crt", "--most-seconds", "1e-9"}, 2, "nothing is done within 1e-09 s");
   fails({"ball.crt", "--region", "10,0,7,1"}, 2, "reaches beyond the picture");
+  fails({"ball.crt", "--png"}, 2, "no option --png: the plot is an SVG file");
   fails({"ball.crt", "-o", "nowhere/ball"}, 3, "nowhere");
   fails({"wrong.crt"}, 1, "wrong.crt:1");
   fails({"missing.crt"}, 3, "missing.crt");

@@ -67,6 +67,17 @@ TEST_CASE("a misspelt command gets the one that was meant, or the list of all") 
   CHECK(contains(run.err, "there are render, farm, watch, "));
 }
 
+TEST_CASE("an option for which there is something else is answered by that") {
+  const TemporaryFolder folder;
+  for (const char* command : {"render", "watch", "studio"}) {
+    const Outcome run = run_crt(folder, {command, "a.crt", "--display", "127.0.0.1:14158"});
+    CHECK(run.exit_code == 2);
+    CHECK(contains(run.err, "has no option --display: crt watch shows a picture in progress"));
+  }
+  CHECK(contains(run_crt(folder, {"render", "a.crt", "--show"}).err,
+                 "has no option --show: crt render scene.crt -o - | chafa shows"));
+}
+
 TEST_CASE("a word too many is named") {
   const TemporaryFolder folder;
   const Outcome run = run_crt(folder, {"trade", "a.crt", "b.crt"});

@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <csignal>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -97,6 +99,29 @@ TEST_CASE("a change during a long render begins it anew") {
   crt.forget();
   folder.write("scene.crt", endless_script);
   CHECK(crt.shows("scene.png: 4 x 4 pixels"));
+}
+
+TEST_CASE("a picture that takes long is seen in progress, over its draft") {
+  const TemporaryFolder folder;
+  // White is all around, and what is drawn of it takes minutes.
+  std::string white_script = endless_script;
+  white_script.replace(white_script.find("t < 0.5 ? 4 : 8000"), 18, "400");
+  white_script.replace(white_script.find("camera"), 0,
+                       "background -> Background { color -> rgb(1, 1, 1) } ");
+  folder.write("scene.crt", white_script);
+  CrtOnPipe run(folder, {"watch", "scene.crt", "--reproducible"});
+  REQUIRE(run.shows("a draft"));
+  const std::string draft = folder.read("scene.png");
+  constexpr int looks = 600;
+  std::string progress = draft;
+  for (int i = 0; i < looks && progress == draft; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    progress = folder.read("scene.png");
+  }
+  CHECK(progress != draft);
+  CHECK_FALSE(contains(run.shown(), "scene.png: 400 x 400 pixels"));
+  // What is not yet rendered is as opaque as the draft, and so the file has no alpha.
+  CHECK(contains(shell(folder, "oiiotool --info scene.png"), "400 x  400, 3 channel"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "a script that is not there is waited for") {

@@ -66,9 +66,6 @@ check_layers() {
     'src/studio/*' 'src/capi/*' 'src/cli/*'
   # Anybody may see what is about words, which sees nothing.
   lines_with '^#include [<"](crt|core|lang|format|service|lsp|studio|cli|capi)/' 'src/text/*'
-  # The command and the studio may see what speaks with a viewer, which sees the public headers.
-  lines_with '^#include [<"](lang|farm|cli|capi|format|service|source|lsp|studio)/' 'src/tev/*'
-  lines_with '^#include [<"]tev/' "${code[@]}" | without '^src/(tev/|cli/|studio/main\.cpp)'
   # The front end is seen by what lays scripts out and by what editors ask. The language server and
   # the studio see the public headers alone, and the command one header of two of these besides.
   lines_with '^#include [<"](format|service|lsp|studio|cli|capi)/' 'src/lang/*'
@@ -93,7 +90,7 @@ only_in() {
 # What the public headers offer is all that lang, the command and the examples may see.
 check_public_only() {
   lines_with '^#include [<"]core/' 'src/lang/*' 'src/format/*' 'src/service/*' 'src/lsp/*' \
-    'src/studio/*' 'src/tev/*' 'src/cli/*' 'src/capi/*' 'examples/*'
+    'src/studio/*' 'src/cli/*' 'src/capi/*' 'examples/*'
   lines_with '^#include [<"](core|lang|cli|capi)/' 'include/*'
   lines_with '^#include <glm/' 'include/*' | without '<glm/vec3.hpp>'
   lines_with '^#include <(fmt|tbb|embree|OpenImageIO|CLI)' 'include/*'
@@ -220,7 +217,7 @@ only_in 'embree' src/core/accel | complain "Embree outside src/core/accel"
 only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel |
   complain "TBB outside src/core/tasks and src/core/accel"
 only_in 'png\.h' python/native | complain "libpng outside python/native"
-only_in 'fmt/' src/cli src/tev |
+only_in 'fmt/' src/cli |
   complain "The library fmt outside the command: libraries use text::format of text/format.hpp"
 only_in 'zlib' src/core/image src/core/mesh_files |
   complain "zlib outside src/core/image and src/core/mesh_files"
@@ -231,7 +228,7 @@ lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
 lines_with '^#include (<nlohmann/json\.hpp>|"text/json\.hpp")' "${code[@]}" |
   without '^src/text/json\.hpp:' |
-  without '^src/(lsp/(server|requests|json_values)|farm/manifest)\.cpp:' |
+  without '^src/(lsp/(server|requests|json_values)|farm/manifest|cli/stats_json)\.cpp:' |
   without '^src/studio/(messages|view_messages|listing|scene_server)\.cpp:' |
   without '^src/studio/(studio_client|view_client)\.cpp:' |
   complain "JSON outside the sources that have to wait for it"

@@ -64,6 +64,7 @@ expect_field libcrt-dev Depends "^$library \(= [0-9.]+\)$"
 expect_field libcrt-dev Recommends libglm-dev libtbb-dev libembree-dev \
   zlib1g-dev libexpat1-dev
 expect_field crt Depends "$library \(= [0-9.]+\)" 'libembree' 'libtbb12' 'libc6'
+expect_field crt Suggests '^ffmpeg$'
 expect_field crt-studio Depends "$library \(= [0-9.]+\)" '(^|, )crt \(= [0-9.]+\)' 'libembree'
 expect_field "$library" Description '^ray tracer .*library'
 expect_field libcrt-dev Description '^ray tracer .*development'

@@ -1,12 +1,9 @@
-// These tests check what `crt trade` reports: texts, tables and drawings.
+// These tests check what `crt trade` reports: texts, tables and plots.
 #include "cli/trade_report.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
-
-#include "cli/stroke_font.hpp"
 
 using namespace crt;
 using namespace crt::cli;
@@ -88,7 +85,7 @@ TEST_CASE("the table for programs has a line a rung, with marks at the best") {
 
 TEST_CASE("the plot has a dot for each rung in both halves, and its names are well-formed") {
   const TradeReport report = small_report();
-  const std::string svg = report_plot(report).svg();
+  const std::string svg = report_plot(report);
   CHECK(svg.starts_with("<svg "));
   CHECK(svg.ends_with("</svg>\n"));
   CHECK(holds(svg, "scene &lt;1&gt;.crt"));
@@ -103,49 +100,8 @@ TEST_CASE("a plot of few, equal or perfect measurements is still one") {
   report.rungs[0].error = {};
   report.uncertainty = {};
   for (const std::string& text :
-       {report_plot(report).svg(), report_text(report, {}), report_csv(report)}) {
+       {report_plot(report), report_text(report, {}), report_csv(report)}) {
     CHECK_FALSE(holds(text, "nan"));
     CHECK_FALSE(holds(text, "inf"));
-  }
-}
-
-TEST_CASE("a drawing's picture has ink where the drawing has it") {
-  Drawing drawing(20, 10);
-  drawing.line({2, 5}, {12, 5}, {255, 0, 0}, 2);
-  drawing.disc({16, 5}, 2, {0, 0, 255});
-  const Image image = drawing.picture(4);
-  CHECK(image.width() == 80);
-  CHECK(image.height() == 40);
-  CHECK(image.at(28, 20) == Color{1, 0, 0, 1});
-  CHECK(image.at(64, 20) == Color{0, 0, 1, 1});
-  CHECK(image.at(28, 8) == Color{1, 1, 1, 1});
-  CHECK(image.at(79, 39) == Color{1, 1, 1, 1});
-  // The line's ink is its area, to the roundness of its ends.
-  double ink = 0;
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 54; ++x) ink += (1 - image.at(x, y).g) / 16;
-  }
-  CHECK(ink == doctest::Approx(2 * 10 + 3.14).epsilon(0.02));
-}
-
-TEST_CASE("every printable letter has strokes within its line and no two look alike") {
-  std::vector<std::vector<std::pair<double, double>>> shapes;
-  for (char letter = '!'; letter <= '~'; ++letter) {
-    CAPTURE(letter);
-    const std::string text(1, letter);
-    std::vector<std::pair<double, double>> corners;
-    for (const std::vector<Place>& stroke : strokes_of_text(text, 11)) {
-      CHECK(stroke.size() >= 2);
-      for (const Place& place : stroke) {
-        CHECK(place.x >= 0);
-        CHECK(place.x <= width_of_text(text, 11));
-        CHECK(place.y >= -8);
-        CHECK(place.y <= 3);
-        corners.emplace_back(place.x, place.y);
-      }
-    }
-    CHECK_FALSE(corners.empty());
-    CHECK(std::find(shapes.begin(), shapes.end(), corners) == shapes.end());
-    shapes.push_back(corners);
   }
 }
