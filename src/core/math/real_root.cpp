@@ -143,7 +143,7 @@ Dyadic RealRoot::between(RealRoot& a, RealRoot& b) {
     (a_is_wider ? a : b).narrow();
   }
   constexpr double half = 0.5;
-  const Dyadic middle = Dyadic(half) * (a.high_ + b.low_);
+  Dyadic middle = Dyadic(half) * (a.high_ + b.low_);
   const double rounded = static_cast<float>(middle.rounded().unscaled().hi);
   if (std::isfinite(rounded) && compared(a.high_, rounded) < 0 && compared(rounded, b.low_) < 0) {
     return rounded;
