@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/geometry/mesh/triangles.hpp"
 #include "crt/query.hpp"
 #include "geometry/cuboids.hpp"
 #include "support/scene_of.hpp"
