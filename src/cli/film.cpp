@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <crt/error.hpp>
 #include <crt/file.hpp>
@@ -22,6 +21,7 @@
 #include <vector>
 
 #include "cli/process.hpp"
+#include "text/letters.hpp"
 
 namespace crt::cli {
 
@@ -32,10 +32,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 3> endings = {".gif", ".webp", ".mp4"};
 
 std::string ending_of(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return text::in_small_letters(file.extension().string());
 }
 
 std::vector<std::string> arguments_for(const std::string& ending, const FilmShape& shape,

@@ -50,6 +50,18 @@ struct Fixture {
     fs::permissions(folder.path() / "bin/ffmpeg", fs::perms::owner_all);
     return {"PATH=" + (folder.path() / "bin").string() + ":/usr/bin:/bin"};
   }
+
+  /// Makes a film of three frames by a program that writes its words and the number of bytes that
+  /// it gets. Returns what it writes.
+  std::string film_by_words(const std::string& file, const std::string& rate) const {
+    const auto environment =
+        with_ffmpeg("for last; do true; done\n{ echo \"$@\"; wc -c; } >\"$last\"\n");
+    const Outcome run =
+        run_crt_in({.environment = environment}, folder,
+                   {"render", "ball.crt", "--frames", "1-3", "-o", file, "--fps", rate});
+    CHECK_MESSAGE(run.exit_code == 0, run.err);
+    return folder.read(file);
+  }
 };
 
 }  // namespace
@@ -101,14 +113,7 @@ TEST_CASE_FIXTURE(Fixture, "without ffmpeg a film is an error before anything is
 
 TEST_CASE_FIXTURE(Fixture,
                   "ffmpeg gets the frames' size, rate and bytes, and its file is the film") {
-  // This one writes its words and the number of bytes that it got.
-  const auto environment =
-      with_ffmpeg("for last; do true; done\n{ echo \"$@\"; wc -c; } >\"$last\"\n");
-  const Outcome run =
-      run_crt_in({.environment = environment}, folder,
-                 {"render", "ball.crt", "--frames", "1-3", "-o", "film.mp4", "--fps", "12.5"});
-  CHECK_MESSAGE(run.exit_code == 0, run.err);
-  const std::string film = folder.read("film.mp4");
+  const std::string film = film_by_words("film.mp4", "12.5");
   CHECK(contains(film, "-video_size 60x44"));
   CHECK(contains(film, "-framerate 12.5"));
   CHECK(contains(film, std::to_string(3 * 60 * 44 * 3) + "\n"));
@@ -116,13 +121,7 @@ TEST_CASE_FIXTURE(Fixture,
 }
 
 TEST_CASE_FIXTURE(Fixture, "a .gif shows its frames again and again, 50 a second at most") {
-  const auto environment =
-      with_ffmpeg("for last; do true; done\n{ echo \"$@\"; wc -c; } >\"$last\"\n");
-  const Outcome run =
-      run_crt_in({.environment = environment}, folder,
-                 {"render", "ball.crt", "--frames", "1-3", "-o", "film.GIF", "--fps", "60"});
-  CHECK_MESSAGE(run.exit_code == 0, run.err);
-  const std::string film = folder.read("film.GIF");
+  const std::string film = film_by_words("film.GIF", "60");
   CHECK(contains(film, "-framerate 50 "));
   CHECK(contains(film, "-loop 0"));
   CHECK(contains(film, "palettegen"));

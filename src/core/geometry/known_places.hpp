@@ -12,8 +12,18 @@ namespace crt::core {
 /// KnownPlaces are those of the crossings of one ray that have been asked for.
 class KnownPlaces {
  public:
-  /// Returns the place of a crossing, which `find` finds when it is asked for first. Comparing a
-  /// place may make it narrower.
+  /// Returns the sign of the place of a crossing less that of another. `find` finds places that
+  /// have not been asked for before. Where it cannot, t decides.
+  template <class Find>
+  int order(const Crossing& first, const Crossing& second, const Find& find) {
+    std::optional<RealRoot>& a = of(first, find);
+    std::optional<RealRoot>& b = of(second, find);
+    if (a && b) return core::order(*a, *b);
+    return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
+  }
+
+ private:
+  /// Returns the place of a crossing. Comparing it may make it narrower.
   template <class Find>
   std::optional<RealRoot>& of(const Crossing& crossing, const Find& find) {
     for (Known& known : known_) {
@@ -27,7 +37,6 @@ class KnownPlaces {
     return known_.front().place;
   }
 
- private:
   struct Known {
     Crossing crossing;
     std::optional<RealRoot> place;

@@ -23,7 +23,7 @@ int bits_to_try(const Dyadic& low, const Dyadic& high) {
   return std::clamp((size - width) / 2, 1, most_bits);
 }
 
-Dyadic size_of(const Dyadic& number) {
+Dyadic abs(const Dyadic& number) {
   return number.sign() < 0 ? -number : number;
 }
 
@@ -33,9 +33,9 @@ bool is_monotonic(const DyadicPolynomial& polynomial, const Dyadic& reach) {
   Dyadic change;  // of the slope, at most
   for (int i = polynomial.degree(); i > 1; --i) {
     const Dyadic& coefficient = polynomial.coefficient(static_cast<std::size_t>(i));
-    change = reach * (change + Dyadic(i) * size_of(coefficient));
+    change = reach * (change + Dyadic(i) * abs(coefficient));
   }
-  return (size_of(polynomial.coefficient(1)) - change).sign() > 0;
+  return (abs(polynomial.coefficient(1)) - change).sign() > 0;
 }
 
 }  // namespace
@@ -156,8 +156,7 @@ DoubleDouble RealRoot::rounded() {
   constexpr double precision = 0x1p-108;
   while (!is_point()) {
     const Dyadic& smaller = high_.sign() > 0 ? low_ : high_;
-    const Dyadic size = smaller.sign() < 0 ? -smaller : smaller;
-    if (compared(high_ - low_, Dyadic(precision) * size) <= 0) break;
+    if (compared(high_ - low_, Dyadic(precision) * abs(smaller)) <= 0) break;
     narrow();
   }
   return low_.rounded().unscaled();

@@ -59,10 +59,6 @@ std::optional<RealRoot> ExactExtrusion::place(const ExactRay& ray, const Crossin
   return root_at(ray, crossing, starts_there ? circle.beside_zero() : circle.polynomial());
 }
 
-int order_of(RealRoot& a, RealRoot& b) {
-  return order(a, b);
-}
-
 class ExactTier final : public ExtrusionTier {
  public:
   ExactTier(const ExactExtrusion& extrusion, const ExactRay& ray, PlaneLine& line)
@@ -126,10 +122,7 @@ class ExactTier final : public ExtrusionTier {
       return 0;
     }
     const auto find = [this](const Crossing& crossing) { return extrusion_.place(ray_, crossing); };
-    std::optional<RealRoot>& a = places_.of(first, find);
-    std::optional<RealRoot>& b = places_.of(second, find);
-    if (a && b) return order_of(*a, *b);
-    return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
+    return places_.order(first, second, find);
   }
 
  private:

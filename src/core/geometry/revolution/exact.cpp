@@ -46,10 +46,7 @@ class ExactTier final : public RevolutionTier {
     const auto find = [this](const Crossing& crossing) {
       return place_on(turned_, bodies_, ray_, crossing);
     };
-    std::optional<RealRoot>& a = places_.of(first, find);
-    std::optional<RealRoot>& b = places_.of(second, find);
-    if (a && b) return core::order(*a, *b);
-    return first.t < second.t ? -1 : (first.t > second.t ? 1 : 0);
+    return places_.order(first, second, find);
   }
 
   ExactLine exact() const override { return ray_.exact(); }
