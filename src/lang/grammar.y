@@ -166,7 +166,7 @@ return: "return" expression                  { $$ = tree.statement(@$, Return{@1
 
 expression:
     conditional                              { $$ = $1; }
-  | conditional "=" nest expression          { $$ = tree.assignment(@$, $1, $4); }
+  | conditional "=" nest expression          { $$ = tree.assignment(@$, $1, @2, $4); }
   | conditional assignment_operator nest expression
                                              { $$ = tree.assignment(@$, $1, $2, @2, $4); }
 

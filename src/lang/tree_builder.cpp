@@ -161,20 +161,19 @@ Expression* TreeBuilder::logical(LogicalOperator op, Expression* left, const Exp
   return left;
 }
 
-Expression* TreeBuilder::assignment(Span span, const Expression* target, const Expression* value) {
-  const auto* name = std::get_if<Name>(&target->node);
-  if (!name)
-    reporter_.error(target->span, "only a variable can be assigned; to compare, write '=='");
-  const NamePlace place{name ? name->symbol : Symbol{}, target->span};
-  return expression(span, Assignment{place, value});
+Expression* TreeBuilder::assignment(Span span, Expression* target, Span op_span,
+                                    const Expression* value) {
+  if (const auto* name = std::get_if<Name>(&target->node))
+    return expression(span, Assignment{{name->symbol, target->span}, value});
+  reporter_.error(target->span, "only a variable can be assigned; to compare, write '=='");
+  return chain(target, BinaryOperator::equal, op_span, value);
 }
 
-Expression* TreeBuilder::assignment(Span span, const Expression* target, BinaryOperator op,
-                                    Span op_span, const Expression* value) {
+Expression* TreeBuilder::assignment(Span span, Expression* target, BinaryOperator op, Span op_span,
+                                    const Expression* value) {
   const auto* name = std::get_if<Name>(&target->node);
-  if (!name) return assignment(span, target, value);  // which reports the error
-  Expression* const old = expression(target->span, *name);
-  return assignment(span, target, chain(old, op, op_span, value));
+  if (name) value = chain(expression(target->span, *name), op, op_span, value);
+  return assignment(span, target, op_span, value);
 }
 
 /// Makes a statement of an expression. `return` alone may end a macro.

@@ -40,9 +40,10 @@ class TreeBuilder {
   Expression* expression(Span span, ExpressionNode node);
   Expression* chain(Expression* left, BinaryOperator op, Span op_span, const Expression* right);
   Expression* logical(LogicalOperator op, Expression* left, const Expression* right);
-  Expression* assignment(Span span, const Expression* target, const Expression* value);
+  /// Builds `target = value`. Where `target` is no name, that is an error, and a comparison.
+  Expression* assignment(Span span, Expression* target, Span op_span, const Expression* value);
   /// Builds `target op= value`, which is `target = target op value`.
-  Expression* assignment(Span span, const Expression* target, BinaryOperator op, Span op_span,
+  Expression* assignment(Span span, Expression* target, BinaryOperator op, Span op_span,
                          const Expression* value);
   Expression* macro(Span span, std::vector<NamePlace> parameters, Block body);
 

@@ -271,6 +271,18 @@ TEST_CASE("a script that is right has no diagnostics, and a broken one keeps wha
   CHECK(LanguageService("", "").tokens().empty());
 }
 
+TEST_CASE("what is assigned to no name makes no name") {
+  for (const std::string text : {"1 = 3 ", "1 += 3 ", "half = 0.5 2 = half "}) {
+    CAPTURE(text);
+    const LanguageService service(text, "numbers.crt");
+    CHECK(service.diagnostics().size() == 1);
+    CHECK(service.tree().size() == service.symbols().size());
+    for (const ScriptSymbol& symbol : service.symbols()) CHECK(symbol.name == "half");
+    const CompletionList list = service.complete(static_cast<std::uint32_t>(text.size()));
+    for (const Completion& item : list.items) CHECK(item.label != "");
+  }
+}
+
 TEST_CASE("a place behind the end is the end") {
   const LanguageService service(script, "wall.crt");
   CHECK_FALSE(service.definition(0xffffffff));
