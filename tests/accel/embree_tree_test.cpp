@@ -18,7 +18,6 @@ constexpr double radius = 1;
 
 /// Spheres are in a row along the x axis, and so are their boxes.
 struct Row {
-  std::vector<BoundedSphere> spheres;
   std::vector<Bounds> boxes;
   Bounds total;
 
@@ -28,7 +27,6 @@ struct Row {
       Bounds box;
       box.include(center - Vec3(radius));
       box.include(center + Vec3(radius));
-      spheres.push_back({center, radius});
       boxes.push_back(box);
       total.include(box);
     }
@@ -54,7 +52,7 @@ RayBatch rays_along(RayMask mask) {
 
 TEST_CASE("boxes are visited with all rays of a packet's mask and with no others") {
   const Row row;
-  const EmbreeTree tree(row.boxes, row.total, {});
+  const EmbreeTree tree(row.boxes, row.total);
   const PacketStarts starts;
   for (const RayMask mask : masks) {
     const RayBatch batch = rays_along(mask);
@@ -65,18 +63,5 @@ TEST_CASE("boxes are visited with all rays of a packet's mask and with no others
       return RayMask{0};
     });
     for (const RayMask rays : visited) CHECK(rays == mask);
-  }
-}
-
-TEST_CASE("the nearest of spheres in a row is known of all rays of a mask and of no others") {
-  const Row row;
-  const EmbreeTree tree(row.boxes, row.total, row.spheres);
-  REQUIRE(tree.filters_spheres());
-  for (const RayMask mask : masks) {
-    const RayBatch batch = rays_along(mask);
-    const NearestSpheres nearest = tree.nearest_spheres(batch, batch.t_max, mask);
-    CHECK(nearest.meeting == mask);
-    CHECK(nearest.missing == 0);
-    for_each_ray(mask, [&](std::size_t ray) { CHECK(nearest.boxes[ray] == 0); });
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "core/geometry/description.hpp"
+#include "core/geometry/placed_solid.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/math/vector.hpp"
 #include "core/ray/line_of_ray.hpp"
@@ -152,13 +154,18 @@ void for_instances(int count, const Check& check) {
   }
 }
 
-/// Checks that crossings are where an enclosure has them.
-void check_enclosed(const Crossings& crossings, const core::Enclosure<double>& part) {
+/// Checks that crossings with a shape are where an enclosure has them, with the bounds on their
+/// errors or without.
+void check_enclosed(const core::Shape& shape, const Crossings& crossings, bool with_errors,
+                    const core::Enclosure<double>& part) {
   for (const core::Crossing& crossing : crossings.list) {
-    REQUIRE_FALSE(crossing.t - crossing.error <
-                  (crossing.entering ? part.enter_from : part.leave_from));
-    REQUIRE_FALSE(crossing.t + crossing.error >
-                  (crossing.entering ? part.enter_to : part.leave_to));
+    const double error = with_errors ? crossing.error : 0;
+    const double from = crossing.t - error;
+    const double to = crossing.t + error;
+    REQUIRE_FALSE((crossing.entering ? from < part.enter_from : to > part.leave_to));
+    REQUIRE_FALSE((from > part.enter_to && to < part.leave_from));
+    if (shape.is_convex())
+      REQUIRE_FALSE((crossing.entering ? to > part.enter_to : from < part.leave_from));
   }
   if (crossings.list.empty() && !crossings.starts_inside) REQUIRE_FALSE(part.is_met());
 }
@@ -175,27 +182,32 @@ double tolerance(const core::ObjectRay& ray, double t) {
 
 }  // namespace
 
-TEST_CASE("what encloses a primitive along a line holds its crossings, if anything does") {
+TEST_CASE("what encloses a primitive along a line holds its crossings") {
   for_instances(400, [](const Primitive&, const core::Shape& shape, Random& random) {
-    const core::EnclosedSolid enclosed = shape.enclosed();
-    if (!std::holds_alternative<core::NoEnclosure>(enclosed)) REQUIRE(shape.is_convex());
+    if (!shape.is_solid()) return;
+    const Transform moved = random.one_in(2) ? Transform{} : rotate(180.0 * random.in_cube());
+    const core::Placement placement{core::PreciseTransform(moved)};
+    const auto box = core::place_box(shape, placement);
+    const auto by_formula = shape.placed(placement);
+    const auto by_crossings =
+        shape.is_convex() ? core::place_by_crossings(shape, placement) : nullptr;
     for (int i = 0; i < 20; ++i) {
-      const core::ObjectRay ray = random_ray(random);
-      const auto line = core::line_of({.origin = ray.origin, .direction = ray.direction});
-      std::visit(
-          [&]<class Solid>(const Solid& solid) {
-            if constexpr (!std::is_same_v<Solid, core::NoEnclosure>) {
-              core::Enclosure<double> part;
-              const Crossings crossings = crossings_of(shape, ray);
-              if (core::enclose(solid, line, true, part)) {
-                check_enclosed(crossings, part);
-              } else {
-                REQUIRE(crossings.list.empty());
-                REQUIRE_FALSE(crossings.starts_inside);
-              }
-            }
-          },
-          enclosed);
+      const core::ObjectRay in_object = random_ray(random);
+      const core::WorldRay ray{.origin = placement.point_to_world(in_object.origin),
+                               .direction = placement.direction_to_world(in_object.direction)};
+      const auto line = core::line_of(ray);
+      const Crossings crossings =
+          crossings_of(shape, placement.to_object(ray.origin, ray.direction));
+      for (const auto* solid : {box.get(), by_formula.get(), by_crossings.get()}) {
+        if (solid == nullptr) continue;
+        core::Enclosure<double> part;
+        if (solid->enclose(line, true, nullptr, part)) {
+          check_enclosed(shape, crossings, solid != box.get(), part);
+        } else {
+          REQUIRE(crossings.list.empty());
+          REQUIRE_FALSE(crossings.starts_inside);
+        }
+      }
     }
   });
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <variant>
+#include <memory>
 
 #include "core/geometry/box/enclose.hpp"
 #include "core/geometry/exact_shape.hpp"
@@ -80,8 +80,7 @@ Enclosure<double> lane_of(const Enclosure<Lanes>& part, std::size_t lane) {
 }
 
 /// Checks rays, alone and side by side, with a solid's shape in both tiers and what encloses it.
-template <class Solid>
-void check_these(const Primitive& primitive, const Solid& solid,
+void check_these(const Primitive& primitive, const PlacedSolid& solid,
                  const std::array<WorldRay, lane_count>& rays, Counts& counts) {
   const auto shape = make_shape(primitive);
   const auto exact_shape = make_exact_shape(primitive);
@@ -90,7 +89,7 @@ void check_these(const Primitive& primitive, const Solid& solid,
   const PacketStarts starts;
   const RayPacket packet(batch, starts, RayPacket::all(lane_count));
   Enclosure<Lanes> parts;
-  const bool some = enclose(solid, packet.groups[0], lanes_with(15), parts);
+  const bool some = solid.enclose(packet.groups[0], lanes_with(15), nullptr, parts);
   for (std::size_t i = 0; i < lane_count; ++i) {
     const ObjectRay ray{.origin = rays[i].origin, .direction = rays[i].direction};
     CrossingList crossings;
@@ -100,7 +99,7 @@ void check_these(const Primitive& primitive, const Solid& solid,
         {.near = ray, .world_origin = ray.origin, .world_direction = ray.direction}, exact);
     const FilterLine<double> line = line_of(rays[i]);
     Enclosure<double> part;
-    const bool alone = enclose(solid, line, true, part);
+    const bool alone = solid.enclose(line, true, nullptr, part);
     if (!some) REQUIRE_FALSE(alone);
     if (!alone) {
       REQUIRE(crossings.empty());
@@ -117,9 +116,8 @@ void check_these(const Primitive& primitive, const Solid& solid,
 }
 
 /// Checks random rays.
-template <class Solid>
-void check_rays(const Primitive& primitive, const Solid& solid, const Vec3& center, double size,
-                Random& random, Counts& counts) {
+void check_rays(const Primitive& primitive, const PlacedSolid& solid, const Vec3& center,
+                double size, Random& random, Counts& counts) {
   std::array<WorldRay, lane_count> rays;
   for (WorldRay& ray : rays) ray = random_ray(random, center, size);
   check_these(primitive, solid, rays, counts);
@@ -146,8 +144,8 @@ void check_most_are_certain(const Counts& counts) {
 TEST_CASE("a sphere is entered and left where its enclosure says") {
   const Counts counts = for_scales(41, 3000, [](double scale, Random& random, Counts& of_rays) {
     const Vec3 center = 10 * scale * random.in_cube();
-    check_rays(Sphere{.center = center, .radius = scale}, EnclosedSphere{center, scale}, center,
-               scale, random, of_rays);
+    check_rays(Sphere{.center = center, .radius = scale},
+               PlacedSolidOf(EnclosedSphere{center, scale}), center, scale, random, of_rays);
   });
   check_most_are_certain(counts);
 }
@@ -156,7 +154,7 @@ TEST_CASE("a box is entered and left where its enclosure says") {
   const Counts counts = for_scales(41, 3000, [](double scale, Random& random, Counts& of_rays) {
     const Vec3 lower = 10 * scale * random.in_cube();
     const Vec3 upper = lower + scale * Vec3(random.uniform(0.1, 2), random.uniform(0.1, 2), 1);
-    check_rays(Box{.corner_a = lower, .corner_b = upper}, EnclosedBox{lower, upper},
+    check_rays(Box{.corner_a = lower, .corner_b = upper}, PlacedSolidOf(EnclosedBox{lower, upper}),
                0.5 * (lower + upper), scale, random, of_rays);
   });
   check_most_are_certain(counts);
@@ -186,8 +184,8 @@ struct RoundSolid {
     if (from_radius == to_radius) return Cylinder{.from = from, .to = to, .radius = from_radius};
     return Cone{.from = from, .to = to, .radius = from_radius, .radius2 = to_radius};
   }
-  EnclosedFrustum enclosed() const {
-    return std::get<EnclosedFrustum>(make_shape(primitive())->enclosed());
+  std::unique_ptr<const PlacedSolid> enclosed() const {
+    return make_shape(primitive())->placed(Placement());
   }
   Vec3 axis() const { return to - from; }
 
@@ -254,7 +252,7 @@ TEST_CASE("a cylinder or a cone is entered and left where its enclosure says") {
     const RoundSolid solid(scale, random);
     const Vec3 middle = 0.5 * (solid.from + solid.to);
     const double size = std::max(scale, 0.5 * std::sqrt(dot(solid.axis(), solid.axis())));
-    check_rays(solid.primitive(), solid.enclosed(), middle, size, random, of_rays);
+    check_rays(solid.primitive(), *solid.enclosed(), middle, size, random, of_rays);
   });
   check_most_are_certain(counts);
 }
@@ -264,7 +262,7 @@ TEST_CASE("what is hard to say of a cylinder or a cone is not said wrongly") {
     const RoundSolid solid(scale, random);
     std::array<WorldRay, lane_count> rays;
     for (WorldRay& ray : rays) ray = hard_ray(solid, random);
-    check_these(solid.primitive(), solid.enclosed(), rays, of_rays);
+    check_these(solid.primitive(), *solid.enclosed(), rays, of_rays);
   });
   CHECK(counts.rejected > counts.missing / 10);
   CHECK(counts.accepted > counts.meeting / 4);
@@ -275,7 +273,7 @@ TEST_CASE("rays that start into a cylinder or a cone leave it where its enclosur
   int all = 0;
   for_scales(48, 100'000, [&](double scale, Random& random, Counts&) {
     const RoundSolid solid(scale, random);
-    const EnclosedFrustum enclosed = solid.enclosed();
+    const auto enclosed = solid.enclosed();
     const auto shape = make_shape(solid.primitive());
     const auto exact_shape = make_exact_shape(solid.primitive());
     const WorldRay first = hard_ray(solid, random);
@@ -289,7 +287,8 @@ TEST_CASE("rays that start into a cylinder or a cone leave it where its enclosur
       const FilterLine<double> line = line_of(ray);
       Enclosure<double> part;
       ++all;
-      if (!enclose(enclosed, line, true, part) || !goes_into(enclosed, hit.face, line)) continue;
+      if (!enclosed->enclose(line, true, nullptr, part) || !enclosed->goes_into(hit.face, line))
+        continue;
       if (!(part.enter_to <= line.certain_from && part.leave_from > line.certain_from)) continue;
       ++known;
       const ObjectRay start{.origin = ray.origin,
@@ -317,10 +316,10 @@ TEST_CASE("a half-space is entered or left where its enclosure says") {
   const Counts counts = for_scales(49, 3000, [](double scale, Random& random, Counts& of_rays) {
     const Vec3 position = 10 * scale * random.in_cube();
     const Plane plane{.normal = random.direction(), .position = position};
-    const auto solid = std::get<EnclosedPlane>(make_shape(plane)->enclosed());
+    const auto solid = make_shape(plane)->placed(Placement());
     const WorldRay ray = random_ray(random, position, scale);
     Enclosure<double> part;
-    enclose(solid, line_of(ray), true, part);
+    solid->enclose(line_of(ray), true, nullptr, part);
     CrossingList crossings;
     const bool inside =
         make_shape(plane)->crossings({.origin = ray.origin, .direction = ray.direction}, crossings);
@@ -340,8 +339,8 @@ TEST_CASE("a torus is entered and left where its enclosure says") {
     const double ring = scale * random.uniform(0.5, 1);
     const double tube = ring * (random.one_in(4) ? random.uniform(1, 2) : random.uniform(0.01, 1));
     const Vec3 axis = random.direction();
-    const EnclosedTorus solid{center, axis / std::sqrt(dot(axis, axis)), ring,
-                              tube + 0x1p-30 * (ring + tube)};
+    const PlacedSolidOf solid(EnclosedTorus{center, axis / std::sqrt(dot(axis, axis)), ring,
+                                            tube + 0x1p-30 * (ring + tube)});
     check_rays(Torus{.center = center, .axis = axis, .radius = ring, .thickness = tube}, solid,
                center, ring + tube, random, of_rays);
   });

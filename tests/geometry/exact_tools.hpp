@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
+#include "core/geometry/placement.hpp"
 #include "geometry/oracle.hpp"
 
 namespace crt::test {

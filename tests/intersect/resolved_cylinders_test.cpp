@@ -100,12 +100,13 @@ TEST_CASE("so it does at cylinders and cones in the exact tier") {
 
 TEST_CASE("most rays from the side of a cylinder are resolved, the same by lanes and alone") {
   Numbers numbers(seed);
-  const FrustumShape shape({1, 2, 3}, {1, 4, 3}, 0.25, 0.25);
+  const auto cylinder = make_shape(Cylinder{.from = {1, 2, 3}, .to = {1, 4, 3}, .radius = 0.25});
+  const Shape& shape = *cylinder;
   int resolved = 0;
   int missed = 0;
   constexpr int count = 4'000;
   for (int i = 0; i < count; ++i) {
-    RayLanes rays;
+    ObjectRayLanes rays{};
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const Vec3 level = Vec3(numbers.within(-1, 1), 0, numbers.within(-1, 1)) + Vec3(1e-3);
       const Vec3 d = glm::normalize(level + Vec3(0, 0.2 * numbers.within(-1, 1), 0));
@@ -114,19 +115,20 @@ TEST_CASE("most rays from the side of a cylinder are resolved, the same by lanes
       rays.origin.set(lane, through - numbers.size(1, 100) * d);
       rays.direction.set(lane, d);
     }
-    const auto entries = shape.first_entry<Lanes>(rays);
+    ShapeSpan<Lanes> entries;
+    shape.span(rays, {lanes_with(15), LaneMask{}}, entries);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const PlainRay<double> ray{rays.origin.lane(lane), rays.direction.lane(lane)};
-      const auto entry = shape.first_entry<double>(ray);
-      const std::size_t k = lane;
-      REQUIRE((entries.known[k] != 0) == entry.known);
-      REQUIRE((entries.rejected[k] != 0) == entry.rejected);
-      if (entry.known) {
-        REQUIRE(entries.t[k] == entry.t);
-        REQUIRE(entries.error[k] == entry.error);
+      const ObjectRay ray{.origin = rays.origin.lane(lane), .direction = rays.direction.lane(lane)};
+      ShapeSpan<double> entry;
+      shape.span(ray, {true, false}, entry);
+      REQUIRE((entries.enter.known[lane] != 0) == entry.enter.known);
+      REQUIRE((entries.misses[lane] != 0) == entry.misses);
+      if (entry.enter.known) {
+        REQUIRE(double{entries.enter.t[lane]} == entry.enter.t);
+        REQUIRE(double{entries.enter.error[lane]} == entry.enter.error);
       }
-      resolved += entry.known ? 1 : 0;
-      missed += entry.rejected ? 1 : 0;
+      resolved += entry.enter.known ? 1 : 0;
+      missed += entry.misses ? 1 : 0;
     }
   }
   CHECK(resolved > 2 * count);

@@ -77,7 +77,7 @@ bool is_resolved(const Entity& entity) {
   const CompiledScene scene = compile(entities);
   const std::uint32_t first[] = {0};
   const BoundingProxies proxies(scene, first);
-  return proxies.resolved_leaf(proxies.list.front()) != nothing;
+  return proxies.list.front().leaf != nullptr;
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
-// The conservative tests of tori (intersect/bounding_proxy.hpp) against the oracle: what they call
+// The conservative tests of tori (geometry/torus/enclose.hpp) against the oracle: what they call
 // certain is true.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "core/compile/compile.hpp"
-#include "core/intersect/bounding_proxy.hpp"
+#include "core/geometry/torus/enclose.hpp"
 #include "core/math/vector.hpp"
 #include "oracle/line_oracle.hpp"
 #include "oracle/ray_maker.hpp"
@@ -42,21 +43,21 @@ class PlacedTorus {
     }
     const Entity entities[] = {entity};
     scene_ = compile(entities);
-    const std::uint32_t first[] = {0};
-    proxies_ = BoundingProxies(scene_, first);
+    const EnclosedTorus solid{torus_.center, glm::normalize(torus_.axis), ring, tube};
+    enclosed_ = solid.placed(*scene_.leaves.front().placement);
   }
 
-  double size() const { return proxy().radius + tube(); }
-  double tube() const { return torus_.thickness * proxy().radius / torus_.radius; }
-  const BoundingProxy& proxy() const { return proxies_.list.front(); }
-  const ProxyAxis& axis() const { return proxies_.axes.front(); }
+  /// Returns what encloses the torus; nothing if it is too far from the origin.
+  const std::optional<EnclosedTorus>& enclosed() const { return enclosed_; }
+  double size() const { return enclosed_->ring + tube(); }
+  double tube() const { return torus_.thickness * enclosed_->ring / torus_.radius; }
 
   /// Returns the normal of the surface. `turn` goes about the ring from outside to the top.
   Vec3 normal(const Vec3& radial, double turn) const {
-    return std::cos(turn) * radial + std::sin(turn) * axis().normal;
+    return std::cos(turn) * radial + std::sin(turn) * enclosed_->axis;
   }
   Vec3 point(const Vec3& radial, double turn) const {
-    return proxy().place + proxy().radius * radial + tube() * normal(radial, turn);
+    return enclosed_->center + enclosed_->ring * radial + tube() * normal(radial, turn);
   }
 
   TrueLine truth(const Vec3& origin, const Vec3& direction) const {
@@ -69,7 +70,7 @@ class PlacedTorus {
  private:
   Torus torus_;
   CompiledScene scene_;
-  BoundingProxies proxies_;
+  std::optional<EnclosedTorus> enclosed_;
 };
 
 Vec3 across(const Vec3& axis, Counted& random) {
@@ -108,7 +109,7 @@ bool is_met(const TrueLine& truth, double end) {
 
 }  // namespace
 
-TEST_CASE("a line that an proxy says to miss a torus, or to meet it, does") {
+TEST_CASE("a line that an enclosure says to miss a torus, or to meet it, does") {
   int missing = 0;
   int missed = 0;
   int meeting = 0;
@@ -116,17 +117,17 @@ TEST_CASE("a line that an proxy says to miss a torus, or to meet it, does") {
   for (std::uint64_t i = 0; i < lines; ++i) {
     Counted random(71, i);
     const PlacedTorus torus(random);
-    if (torus.proxy().kind != BoundingProxy::Kind::torus) continue;  // too far from the origin
+    if (!torus.enclosed()) continue;
     // The line is along the surface, a little out- or inside of it, or anywhere through the ball
     // around the torus.
-    const Vec3 radial = across(torus.axis().normal, random);
+    const Vec3 radial = across(torus.enclosed()->axis, random);
     const double turn = any_turn(random);
     const Vec3 normal = torus.normal(radial, turn);
     const bool grazes = random.integer(0, 3) != 0;
     const Vec3 direction = grazes ? across(normal, random) : glm::normalize(random.direction());
     const double off = random.sign() * random.power_of_ten(-12, -1) * torus.tube();
     const Vec3 place = grazes ? torus.point(radial, turn) + off * normal
-                              : torus.proxy().place + torus.size() * random.in_cube();
+                              : torus.enclosed()->center + torus.size() * random.in_cube();
     const double distance =
         random.power_of_ten(-2, random.integer(0, 7) == 0 ? 6 : 2) * torus.size();
     const Vec3 origin = place - distance * direction;
@@ -134,10 +135,9 @@ TEST_CASE("a line that an proxy says to miss a torus, or to meet it, does") {
 
     const FilterLine<double> line = filter_line(origin, direction, end);
     Enclosure<double> part;
-    const Decision<bool> decision =
-        enclose(enclosed_torus(torus.proxy(), torus.axis()), line, true, part)
-            ? decide(part, line, end, true)
-            : Decision<bool>{.rejected = true, .accepted = false};
+    const Decision<bool> decision = enclose(*torus.enclosed(), line, true, part)
+                                        ? decide(part, line, end, true)
+                                        : Decision<bool>{.rejected = true, .accepted = false};
     const bool truth = is_met(torus.truth(origin, direction), end);
     CAPTURE(i);
     REQUIRE_FALSE((decision.rejected && truth));
@@ -151,22 +151,21 @@ TEST_CASE("a line that an proxy says to miss a torus, or to meet it, does") {
   CHECK(met > meeting / 4);
 }
 
-TEST_CASE("a ray of which an proxy says that it leaves its torus for good does") {
+TEST_CASE("a ray of which an enclosure says that it leaves its torus for good does") {
   int outer = 0;
   int left = 0;
   for (std::uint64_t i = 0; i < lines; ++i) {
     Counted random(73, i);
     const PlacedTorus torus(random);
-    if (torus.proxy().kind != BoundingProxy::Kind::torus) continue;
-    const Vec3 radial = across(torus.axis().normal, random);
+    if (!torus.enclosed()) continue;
+    const Vec3 radial = across(torus.enclosed()->axis, random);
     const double turn = any_turn(random);
     const Vec3 normal = torus.normal(radial, turn);
-    if (torus.proxy().radius + torus.tube() * std::cos(turn) < 0) continue;  // within a spindle
+    if (torus.enclosed()->ring + torus.tube() * std::cos(turn) < 0) continue;  // within a spindle
     const double tilt = (random.integer(0, 7) == 0 ? -1 : 1) * random.power_of_ten(-8, 0);
     const Vec3 direction = glm::normalize(across(normal, random) + tilt * normal);
     const Vec3 origin = torus.point(radial, turn);
-    const bool leaves =
-        leaves_torus(torus.proxy(), torus.axis(), filter_line(origin, direction, 0x1p100));
+    const bool leaves = leaves_for_good(*torus.enclosed(), filter_line(origin, direction, 0x1p100));
     // The start is off the surface by rounding, and the flattest line meets it again that much
     // farther on.
     const double start = 0x1p-24 * torus.size();

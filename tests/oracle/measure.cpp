@@ -9,9 +9,9 @@
 #include <limits>
 #include <thread>
 
-#include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/mesh/triangles.hpp"
+#include "core/geometry/placement.hpp"
 #include "core/render/input_rays.hpp"
 #include "oracle/naive.hpp"
 #include "oracle/number_vec.hpp"

@@ -14,8 +14,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
+#include "core/geometry/placement.hpp"
 #include "oracle/accuracy_page.hpp"
 #include "oracle/naive.hpp"
 

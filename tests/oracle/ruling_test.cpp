@@ -222,19 +222,20 @@ TEST_CASE("a ray that starts on a side next to a ruling is inside for as long as
 
 namespace {
 
-/// Returns what first_entry() says of a ray, after a comparison with all crossings.
-core::FrustumEntry<double> checked_entry(const TestRay& ray) {
+/// Returns what span() says of where a ray enters, after a comparison with all crossings.
+core::ShapeSpan<double> checked_entry(const TestRay& ray) {
   const auto shape = core::make_shape(ray.primitive);
   const core::ObjectRay object_ray{.origin = ray.origin, .direction = ray.direction};
-  const auto entry = static_cast<const core::FrustumShape&>(*shape).first_entry<double>(object_ray);
+  core::ShapeSpan<double> entry;
+  shape->span(object_ray, {.enter = true, .leave = false}, entry);
   core::CrossingList found;
   const bool inside_before = shape->crossings(object_ray, found);
-  if (entry.rejected) REQUIRE(found.empty());
-  if (entry.rejected || entry.known) REQUIRE_FALSE(inside_before);
-  if (entry.known) {
+  if (entry.misses) REQUIRE(found.empty());
+  if (entry.misses || entry.enter.known) REQUIRE_FALSE(inside_before);
+  if (entry.enter.known) {
     REQUIRE(!found.empty());
-    REQUIRE(found[0].t == entry.t);
-    REQUIRE(found[0].error == entry.error);
+    REQUIRE(found[0].t == entry.enter.t);
+    REQUIRE(found[0].error == entry.enter.error);
     REQUIRE(found[0].face == core::FrustumShape::side_face);
   }
   return entry;
@@ -252,8 +253,8 @@ TEST_CASE(
       CAPTURE(kind);
       CAPTURE(i);
       const auto entry = checked_entry(make_ray(kind, i));
-      known += entry.known ? 1 : 0;
-      missed += entry.rejected ? 1 : 0;
+      known += entry.enter.known ? 1 : 0;
+      missed += entry.misses ? 1 : 0;
     }
     CHECK(known > rays / 10);
     CHECK(missed > rays / 20);
@@ -270,5 +271,5 @@ TEST_CASE(
       .primitive = cone,
       .origin = {0x1.24065a816a2b1p+32, 0x1.2c0b0b6dd69fcp+24, 0x1.f31c3c9519bcep+23},
       .direction = {-0x1.24065a7eb5c0ap+32, -0x1.2c0b0e1fc9aecp+24, -0x1.f31c41456b632p+23}};
-  CHECK_FALSE(checked_entry(ray).known);
+  CHECK_FALSE(checked_entry(ray).enter.known);
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <iterator>
 
 #include "core/accel/embree_traversals.hpp"
 
@@ -68,64 +67,17 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
   if (valid[0] != 0) ray.tfar = std::min(ray.tfar, visit_box(context, box));
 }
 
-/// Tests a sphere against the rays of a packet that come to its box.
-void visit_sphere(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) {
-  auto& traversal = *reinterpret_cast<SphereTraversal*>(arguments.context);
-  NearestSphereFilter& search = traversal.search;
-  const unsigned count = arguments.N;
-  const FloatSphere& sphere =
-      static_cast<const Things*>(arguments.geometryUserPtr)->spheres[arguments.primID];
-  const auto meet_octets = [&](auto& of_part) {
-    for (std::size_t first = 0; first < std::size(of_part.tfar); first += octet_size) {
-      const FloatRays octet{
-          .origin = {&of_part.org_x[first], &of_part.org_y[first], &of_part.org_z[first]},
-          .direction = {&of_part.dir_x[first], &of_part.dir_y[first], &of_part.dir_z[first]},
-          .end = &of_part.tfar[first]};
-      const auto valid = lanes_at<IntOctet>(arguments.valid + first) != 0;
-      search.meet(sphere, arguments.primID, first, mask_cast<OctetMask>(valid), octet);
-    }
-  };
-  if (count == packet_size) return meet_octets(*reinterpret_cast<RTCRay16*>(rays));
-  if (count == octet_size) return meet_octets(*reinterpret_cast<RTCRay8*>(rays));
-  for (unsigned i = 0; i < count; ++i) {
-    if (arguments.valid[i] == 0) continue;
-    // This is one ray among others that are not looked at.
-    const std::size_t ray = RTCRayN_id(rays, count, i) - traversal.first_ray;
-    const std::size_t first = ray - ray % octet_size;
-    std::array<std::array<float, octet_size>, 7> columns;
-    const auto column = [&](std::size_t index, float value) {
-      columns[index].fill(value);
-      return columns[index].data();
-    };
-    const FloatRays octet{.origin = {column(0, RTCRayN_org_x(rays, count, i)),
-                                     column(1, RTCRayN_org_y(rays, count, i)),
-                                     column(2, RTCRayN_org_z(rays, count, i))},
-                          .direction = {column(3, RTCRayN_dir_x(rays, count, i)),
-                                        column(4, RTCRayN_dir_y(rays, count, i)),
-                                        column(5, RTCRayN_dir_z(rays, count, i))},
-                          .end = column(6, RTCRayN_tfar(rays, count, i))};
-    OctetMask only{};
-    only[ray % octet_size] = true;
-    search.meet(sphere, arguments.primID, first, only, octet);
-    RTCRayN_tfar(rays, count, i) = columns[6][ray % octet_size];
-    // From a copy of a part of a packet, Embree takes the ends of those rays that hit something.
-    RTCHitN_geomID(RTCRayHitN_HitN(arguments.rayhit, count), count, i) = arguments.geomID;
-  }
-}
-
 }  // namespace
 
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o =
-      static_cast<const Things*>(arguments->geometryUserPtr)->boxes[arguments->primID];
+      (*static_cast<const std::vector<RTCBounds>*>(arguments->geometryUserPtr))[arguments->primID];
 }
 
 void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
   using Kind = AnyTraversal::Kind;
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
   switch (reinterpret_cast<const AnyTraversal*>(arguments->context)->kind) {
-    case Kind::among_spheres:
-      return visit_sphere(*arguments, rays);
     case Kind::of_packet:
       return visit_box(arguments->context, arguments->primID, arguments->valid, rays, arguments->N);
     case Kind::of_ray:

@@ -18,29 +18,12 @@ void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& 
   traverse_part<RTCRayHit8>(packet, rays, packet_size / 2, visitor);
 }
 
-bool EmbreeTree::filters_spheres() const {
-  return !handles_->things.spheres.empty();
-}
-
-NearestSpheres EmbreeTree::nearest_spheres(const RayBatch& rays, const RayBatch::Numbers& limits,
-                                           RayMask some) const {
-  NearestSpheres known;
-  if (handles_->takes_sixteen) {
-    find_nearest_spheres<RTCRayHit16>(rays, limits, some, 0, known);
-  } else {
-    find_nearest_spheres<RTCRayHit8>(rays, limits, some, 0, known);
-    find_nearest_spheres<RTCRayHit8>(rays, limits, some, packet_size / 2, known);
-  }
-  return known;
-}
-
 /// An Entry is where Embree's rays of a group start and end.
 struct EmbreeTree::Entry {
   Lanes start;        ///< t where they start
   Lanes end;          ///< t where they end
   VectorLanes place;  ///< where they start, in Embree's units
   RayMask coming;     ///< the rays that come to the box around all
-  RayMask near;       ///< among spheres: the rays that start where NearestSphereFilter takes them
 };
 
 /// A Part holds some rays of a packet as Embree takes them.
@@ -123,67 +106,6 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
   init_context(traversal.any.context);
   embree_intersect(handles_->scene, traversal.any.context, part.valid.data(), part.ray_hits);
   if (traversal.failure) std::rethrow_exception(traversal.failure);
-}
-
-/// Computes the entries of a group's rays among spheres. Rays that start near enough are not moved
-/// to the box around all.
-inline void EmbreeTree::enter_among_spheres(const RayBatch& rays, const RayBatch::Numbers& limits,
-                                            std::size_t group, RayMask lanes, Entry& entry) const {
-  const RayLanes& lines = rays.lines[group];
-  const Lanes& begin = rays.t_min[group];
-  for (int axis = 0; axis < 3; ++axis) {
-    entry.place[axis] =
-        (lines.origin[axis] - center_[axis] + begin * lines.direction[axis]) * scale_;
-  }
-  entry.near = lanes & mask_of(NearestSphereFilter::is_near(entry.place, begin * scale_));
-  if (entry.near == lanes) {
-    entry.start = begin;
-    entry.end = min(limits[group], begin + NearestSphereFilter::farthest * (1 / scale_));
-    entry.coming = lanes & mask_of(begin <= entry.end);
-    return;
-  }
-  FilterLine<Lanes> line;
-  line.origin = {lines.origin.x, lines.origin.y, lines.origin.z};
-  line.direction = {lines.direction.x, lines.direction.y, lines.direction.z};
-  for (std::size_t axis = 0; axis < 3; ++axis) line.inverse[axis] = 1.0 / line.direction[axis];
-  line.begin = begin;
-  enter(line, limits[group], lanes, entry);
-  entry.near = lanes & mask_of(NearestSphereFilter::is_near(entry.place, entry.start * scale_));
-}
-
-template <class RayHits>
-void EmbreeTree::find_nearest_spheres(const RayBatch& rays, const RayBatch::Numbers& limits,
-                                      RayMask some, std::size_t first_ray,
-                                      NearestSpheres& known) const {
-  Part<RayHits> part(first_ray);
-  SphereTraversal traversal(first_ray);
-  NearestSphereFilter& search = traversal.search;
-  part.fill(some, [&](std::size_t group, RayMask lanes) {
-    const VectorLanes& direction = rays.lines[group].direction;
-    Entry entry;
-    enter_among_spheres(rays, limits, group, lanes, entry);
-    known.missing |= (lanes & ~entry.coming) << (group * lane_count);
-    const Lanes squared_length = dot(direction, direction);
-    search.set_squared_lengths(group * lane_count - first_ray, to_floats(squared_length));
-    const LaneMask is_plain = NearestSphereFilter::is_plain(
-        squared_length, (rays.start_errors[group] + rays.max_size_error) * scale_);
-    part.put(group, entry.coming & entry.near & mask_of(is_plain), entry, direction, scale_);
-  });
-  if (part.followed == 0) return;
-  embree_intersect(handles_->scene, traversal.any.context, part.valid.data(), part.ray_hits);
-
-  const auto& ends = part.ray_hits.ray.tfar;
-  const NearestSphereFilter::Outcome outcome = search.outcome(ends);
-  const RayMask known_rays = part.followed & outcome.known << first_ray;
-  const RayMask meeting = outcome.meeting << first_ray;
-  known.meeting |= known_rays & meeting;
-  known.missing |= known_rays & ~meeting;
-  std::memcpy(&known.boxes[first_ray], search.first().data(), part.count * sizeof(std::uint32_t));
-  for (std::size_t first = 0; first < part.count; first += lane_count) {
-    const std::size_t group = (first_ray + first) / lane_count;
-    known.to[group] =
-        part.t_start[group] + to_doubles(lanes_at<FloatLanes>(&ends[first])) * (1 / scale_);
-  }
 }
 
 }  // namespace crt::core

@@ -12,7 +12,6 @@
 #include "core/accel/embree_device.hpp"
 #include "core/accel/embree_floats.hpp"
 #include "core/accel/embree_tree.hpp"
-#include "core/accel/nearest_sphere_filter.hpp"
 
 namespace crt::core {
 
@@ -26,7 +25,7 @@ inline constexpr double farthest_place = 0x1p60;
 /// An AnyTraversal is what the callbacks get from Embree. The context is the first member, so that
 /// the two have one address.
 struct AnyTraversal {
-  enum class Kind { of_ray, of_packet, among_spheres };
+  enum class Kind { of_ray, of_packet };
 
   EmbreeContext context;
   Kind kind = Kind::of_ray;
@@ -62,29 +61,10 @@ struct PacketTraversal {
   }
 };
 
-/// A SphereTraversal is what is known of a packet among spheres, whose first ones are found by
-/// floats alone.
-struct SphereTraversal {
-  AnyTraversal any;
-  std::size_t first_ray;  ///< the packet's ray that is the search's first
-  NearestSphereFilter search;
-
-  explicit SphereTraversal(std::size_t first) : first_ray(first) {
-    init_context(any.context);
-    any.kind = AnyTraversal::Kind::among_spheres;
-  }
-};
-
-/// Things are what Embree's geometry consists of.
-struct Things {
-  std::vector<RTCBounds> boxes;  ///< until Embree has built its tree
-  std::vector<FloatSphere> spheres;
-};
-
 struct EmbreeTree::Handles {
   std::shared_ptr<EmbreeDevice> device;
   RTCScene scene = nullptr;
-  Things things;
+  std::vector<RTCBounds> boxes;   ///< until Embree has built its tree
   std::int64_t embree_bytes = 0;  ///< of memory that Embree takes for the tree
   bool takes_sixteen = false;     ///< rays at once, without taking them one by one
 

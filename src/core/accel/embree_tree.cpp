@@ -73,31 +73,9 @@ bool may_go_on(void* stoppable_build, double /*share*/) {
   }
 }
 
-/// Returns spheres as floats. Returns none if more than an eighth of them are so small that floats
-/// hardly resolve them.
-std::vector<FloatSphere> float_spheres(std::span<const BoundedSphere> spheres, const Vec3& center,
-                                       double scale) {
-  constexpr double smallest = 0x1p-12;
-  const auto is_small = [&](const BoundedSphere& sphere) {
-    return sphere.radius * scale < smallest;
-  };
-  const auto small_spheres = std::count_if(spheres.begin(), spheres.end(), is_small);
-  std::vector<FloatSphere> floats;
-  if (static_cast<std::size_t>(small_spheres) > spheres.size() / 8) return floats;
-  floats.reserve(spheres.size());
-  const auto to_float = [](double value) { return static_cast<float>(value); };
-  for (const BoundedSphere& sphere : spheres) {
-    const Vec3 place = (sphere.center - center) * scale;
-    floats.push_back({{to_float(place.x), to_float(place.y), to_float(place.z)},
-                      to_float(sphere.radius * scale)});
-  }
-  return floats;
-}
-
 }  // namespace
 
-EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
-                       std::span<const BoundedSphere> spheres, StopCheck* stop) {
+EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, StopCheck* stop) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
     center_[axis] = total.lower[axis] / 2 + total.upper[axis] / 2;
@@ -112,7 +90,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
   handles->device = device_for(boxes.size());
   const EmbreeDevice& device = *handles->device;
   const std::int64_t bytes_before = EmbreeDevice::bytes_of_this_thread();
-  std::vector<RTCBounds>& floats = handles->things.boxes;
+  std::vector<RTCBounds>& floats = handles->boxes;
   floats.reserve(boxes.size());
   for (const Bounds& box : boxes) {
     const auto lower = [&](int axis) {
@@ -126,7 +104,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
   handles->scene = rtcNewScene(device.handle());
   RTCGeometry geometry = rtcNewGeometry(device.handle(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
-  rtcSetGeometryUserData(geometry, &handles->things);
+  rtcSetGeometryUserData(geometry, &floats);
   rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
   rtcSetGeometryIntersectFunction(geometry, intersect_callback);
   rtcSetGeometryOccludedFunction(geometry, occluded_callback);
@@ -143,7 +121,6 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
   }
   device.check();
   floats = {};
-  handles->things.spheres = float_spheres(spheres, center_, scale_);
   handles->takes_sixteen =
       rtcGetDeviceProperty(device.handle(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   handles->embree_bytes = boxes.size() < worth_threads
@@ -155,8 +132,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
 EmbreeTree::~EmbreeTree() = default;
 
 std::uint64_t EmbreeTree::bytes() const {
-  return static_cast<std::uint64_t>(handles_->embree_bytes) +
-         handles_->things.spheres.capacity() * sizeof(FloatSphere);
+  return static_cast<std::uint64_t>(handles_->embree_bytes);
 }
 
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,

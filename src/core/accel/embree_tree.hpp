@@ -31,38 +31,20 @@ class PacketVisitor {
   virtual RayMask visit(std::uint32_t box, RayMask rays) = 0;
 };
 
-/// A BoundedSphere is all there is in its box.
-struct BoundedSphere {
-  Vec3 center;
-  double radius;
-};
-
-/// NearestSpheres are what floats resolve of rays among spheres. Nothing is known of rays that are
-/// in neither mask.
-struct NearestSpheres {
-  RayMask meeting = 0;  ///< rays that cross a sphere, if they reach that far, and nothing before it
-  RayMask missing = 0;  ///< rays that cross nothing
-  // The following is of rays that meet a sphere.
-  std::array<std::uint32_t, packet_size> boxes;  ///< its box
-  std::array<Lanes, RayBatch::group_count> to;   ///< up to this t there is nothing else
-};
-
 /// An EmbreeTree gives Embree boxes that are moved and scaled by a power of two to around 1. Embree
 /// works in floats, and silently drops what is too large for it. The boxes are also grown by more
-/// than all roundings add up to. So Embree decides nothing and only spares tests, and what is found
-/// of spheres holds whatever the roundings. The scene's own size and place never matter.
+/// than all roundings add up to. So Embree decides nothing and only spares tests. The scene's own
+/// size and place never matter.
 class EmbreeTree {
  public:
   /// Builds the tree over boxes, all of which must be finite. `total` is the box around them.
-  /// `spheres` are what is in the boxes if there is a sphere in each, else none. `stop` may stop
-  /// the building.
-  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
-             std::span<const BoundedSphere> spheres, StopCheck* stop = nullptr);
+  /// `stop` may stop the building.
+  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, StopCheck* stop = nullptr);
   ~EmbreeTree();
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;
 
-  /// Returns the bytes of memory that Embree and the spheres take.
+  /// Returns the bytes of memory that Embree takes.
   std::uint64_t bytes() const;
 
   /// Visits at least every box that the ray origin + t * direction meets at t_min <= t <= t_max.
@@ -103,13 +85,6 @@ class EmbreeTree {
     traverse(packet, rays, static_cast<PacketVisitor&>(caller));
   }
 
-  /// Returns whether nearest_spheres() may be called. For this all boxes must hold spheres, most of
-  /// them large enough for floats.
-  bool filters_spheres() const;
-  /// Finds which spheres some rays cross first, up to their limits. The rays must start on none.
-  NearestSpheres nearest_spheres(const RayBatch& rays, const RayBatch::Numbers& limits,
-                                 RayMask some) const;
-
  private:
   struct Handles;
   struct Entry;
@@ -119,14 +94,9 @@ class EmbreeTree {
   /// Computes where those of a group's rays that are in `lanes` enter and leave the box around all.
   void enter(const FilterLine<Lanes>& lines, const Lanes& limits, RayMask lanes,
              Entry& entry) const;
-  void enter_among_spheres(const RayBatch& rays, const RayBatch::Numbers& limits, std::size_t group,
-                           RayMask lanes, Entry& entry) const;
   template <class RayHits>
   void traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
                      PacketVisitor& visitor) const;
-  template <class RayHits>
-  void find_nearest_spheres(const RayBatch& rays, const RayBatch::Numbers& limits, RayMask some,
-                            std::size_t first_ray, NearestSpheres& known) const;
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};

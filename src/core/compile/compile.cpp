@@ -166,7 +166,7 @@ CompiledScene Compiler::compile_prototype() {
   result_.precision = precision_;
   CompiledScene prototype = compile();
   for (Leaf& leaf : prototype.leaves) {
-    leaf.plain_sphere = nullptr;  // as instances may move it
+    leaf.family = nullptr;  // as instances may move it
     for (const Vec3& corner : {leaf.bounds.lower, leaf.bounds.upper}) {
       for (int axis = 0; axis < 3; ++axis) {
         if (std::isfinite(corner[axis]))
@@ -246,8 +246,7 @@ void Compiler::make_leaves() {
                  const FacetAttributes* const facets = leaf.shape->facet_attributes();
                  leaf.has_normals = facets != nullptr && facets->has_normals();
                  const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
-                 leaf.plain_sphere =
-                     is_plain ? shape_as<SphereShape>(leaf.shape->typed()) : nullptr;
+                 leaf.family = is_plain ? leaf.shape->family() : nullptr;
                  leaf.face_count = leaf.shape->listed_face_count();
                  bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
                }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/csg/placement.hpp"
+#include "core/geometry/placement.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/math/vector.hpp"
 #include "core/ray/coincidence_tolerance.hpp"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/csg/placement.hpp"
 #include "core/csg/program.hpp"
+#include "core/geometry/placement.hpp"
 #include "core/geometry/surface.hpp"
 
 #include "core/tasks/workers.hpp"

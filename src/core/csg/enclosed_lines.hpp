@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/geometry/enclosed_solid.hpp"
+#include "core/geometry/placed_solid.hpp"
 #include "core/ray/enclosure.hpp"
 
 namespace crt::core {
@@ -34,17 +34,14 @@ class EnclosedLines {
 
   /// Encloses the part of the lines in a leaf. Returns false if all lines surely are outside as
   /// long as it matters. The enclosure then means nothing.
-  template <class Solid>
-  [[gnu::always_inline]] bool enclose(const Solid& solid, Enclosure<Real>& part) const {
-    if (!core::enclose(solid, lines_, asked_, part)) return false;
-    return restrict(part);
+  [[gnu::always_inline]] bool enclose(const PlacedSolid& solid, Enclosure<Real>& part) const {
+    return solid.enclose(lines_, asked_, nullptr, part)&& restrict(part);
   }
 
   /// Returns whether a ray that starts on a face of a solid, and to its inner side, surely comes
   /// into it there.
-  template <class Solid>
-  bool goes_into(const Solid& solid, std::uint32_t face, std::size_t lane) const {
-    return any(lane_bit(lane) && core::goes_into(solid, face, lines_));
+  bool goes_into(const PlacedSolid& solid, std::uint32_t face, std::size_t lane) const {
+    return any(lane_bit(lane) && solid.goes_into(face, lines_));
   }
   bool starts_at_0(std::size_t lane) const { return any(lane_bit(lane) && lines_.begin == 0.0); }
   /// Returns whether a ray that starts into a leaf is inside of it as soon as crossings count.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <type_traits>
 
 #include "core/csg/evaluate.hpp"
 #include "core/csg/near_leaves.hpp"
@@ -11,45 +10,36 @@
 
 namespace crt::core {
 
+namespace {
+
+/// Returns what encloses a leaf in the world, by the best that there is.
+std::unique_ptr<const PlacedSolid> enclosed(const Leaf& leaf) {
+  const Shape& shape = *leaf.shape;
+  auto solid = shape.placed(*leaf.placement);
+  if (solid != nullptr) return solid;
+  // The exact tier may find a crossing where the standard one does not.
+  return shape.is_convex() && !leaf.exact ? place_by_crossings(shape, *leaf.placement)
+                                          : place_box(shape, *leaf.placement);
+}
+
+}  // namespace
+
 IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
                                std::span<const FaceSurface> faces) {
   if (!program.paths.empty()) return;
-  IntervalFilter filter;
-  filter.places_.reserve(leaves.size());
-  for (const Leaf& leaf : leaves) {
-    const EnclosedSolid solid = placed(leaf.shape->enclosed(), *leaf.placement);
-    if (!filter.add(solid, leaf.complemented)) return;
+  leaves_.reserve(leaves.size());
+  for (const Leaf& leaf : leaves) leaves_.push_back({enclosed(leaf), leaf.complemented});
+  first_face_ = leaves.front().first_face;
+  end_face_ = leaves.back().first_face + leaves.back().face_count;
+  for (std::uint32_t face = first_face_; face < end_face_; ++face) {
+    if (faces[face].surface < first_face_) shares_surfaces_ = true;
   }
-  std::apply([](auto&... lists) { (lists.shrink_to_fit(), ...); }, filter.solids_.lists);
-  filter.first_face_ = leaves.front().first_face;
-  filter.end_face_ = leaves.back().first_face + leaves.back().face_count;
-  for (std::uint32_t face = filter.first_face_; face < filter.end_face_; ++face) {
-    if (faces[face].surface < filter.first_face_) filter.shares_surfaces_ = true;
-  }
-  *this = std::move(filter);
-}
-
-bool IntervalFilter::add(const EnclosedSolid& solid, bool complemented) {
-  if (std::holds_alternative<NoEnclosure>(solid)) return false;
-  const auto leaf = static_cast<std::uint32_t>(places_.size());
-  std::visit(
-      [&]<class Solid>(const Solid& one) {
-        if constexpr (!std::is_same_v<Solid, NoEnclosure>) {
-          auto& list = std::get<std::vector<LeafSolid<Solid>>>(solids_.lists);
-          places_.push_back({.index = static_cast<std::uint32_t>(list.size()),
-                             .kind = static_cast<std::uint8_t>(solid.index() - 1),
-                             .complemented = complemented});
-          list.push_back({one, leaf});
-        }
-      },
-      solid);
-  return true;
 }
 
 std::size_t IntervalFilter::bytes() const {
-  const auto bytes_of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
-  return std::apply([&](const auto&... lists) { return (bytes_of(lists) + ...); }, solids_.lists) +
-         bytes_of(places_);
+  std::size_t bytes = leaves_.capacity() * sizeof(EnclosedLeaf);
+  for (const EnclosedLeaf& leaf : leaves_) bytes += leaf.solid->bytes();
+  return bytes;
 }
 
 /// A Search finds the first changes of some rays.
@@ -194,8 +184,7 @@ class IntervalFilter::Search {
   }
 
   bool goes_into(std::uint32_t leaf, std::uint32_t face, std::uint32_t lane) const {
-    return filter_.visit(leaf,
-                         [&](const auto& solid) { return lines_.goes_into(solid, face, lane); });
+    return lines_.goes_into(filter_.solid(leaf), face, lane);
   }
 
   /// Returns whether a leaf must be outside to make for a value of the root.

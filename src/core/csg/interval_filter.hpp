@@ -20,12 +20,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <tuple>
-#include <variant>
 #include <vector>
 
-#include "core/geometry/enclosed_solid.hpp"
+#include "core/geometry/placed_solid.hpp"
 
 namespace crt::core {
 
@@ -76,22 +75,7 @@ class EnclosedLines;
 class NearLeavesWorkspace;
 class RaySteps;
 
-/// A LeafSolid is what encloses a leaf in the world.
-template <class Solid>
-struct LeafSolid : Solid {
-  std::uint32_t leaf = 0;  ///< its number within the object
-};
-
-/// LeafSolids are the leaves of a program, sorted by the kind of solid that encloses them.
-template <class Kinds>
-struct LeafSolids;
-template <class... Solids>
-struct LeafSolids<std::variant<NoEnclosure, Solids...>> {
-  std::tuple<std::vector<LeafSolid<Solids>>...> lists;
-};
-
-/// An IntervalFilter is the filter of a program each of whose leaves has an enclosure
-/// (geometry/enclosed_solid.hpp). Deep programs have none.
+/// An IntervalFilter is the filter of a program. Deep programs have none.
 class IntervalFilter {
  public:
   /// Makes an empty filter, which is what other programs have.
@@ -100,7 +84,7 @@ class IntervalFilter {
   IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
                  std::span<const FaceSurface> faces);
 
-  bool empty() const { return places_.empty(); }
+  bool empty() const { return leaves_.empty(); }
   /// Returns the bytes that it takes beside the object itself.
   std::size_t bytes() const;
 
@@ -112,52 +96,20 @@ class IntervalFilter {
                                       std::span<const FaceSurface> faces,
                                       NearLeavesWorkspace& workspace, const RaySteps& steps) const;
 
-  bool is_complemented(std::uint32_t leaf) const { return places_[leaf].complemented; }
-
-  /// Calls use(solid) for each leaf, with a LeafSolid of its kind.
-  template <class Use>
-  void for_each_leaf(const Use& use) const {
-    std::apply(
-        [&](const auto&... lists) {
-          const auto use_all = [&](const auto& list) {
-            for (const auto& solid : list) use(solid);
-          };
-          (use_all(lists), ...);
-        },
-        solids_.lists);
-  }
-
-  /// Returns use(solid) for a leaf by its number within the object.
-  template <class Use>
-  [[gnu::always_inline]] decltype(auto) visit(std::uint32_t leaf, const Use& use) const {
-    return visit_kind<0>(places_[leaf], use);
-  }
+  bool is_complemented(std::uint32_t leaf) const { return leaves_[leaf].complemented; }
+  /// Returns what encloses a leaf in the world, by its number within the object.
+  const PlacedSolid& solid(std::uint32_t leaf) const { return *leaves_[leaf].solid; }
 
  private:
   template <class Real>
   class Search;
 
-  /// A Place is where a leaf is among those of its kind.
-  struct Place {
-    std::uint32_t index = 0;
-    std::uint8_t kind = 0;  ///< of the lists
+  struct EnclosedLeaf {
+    std::unique_ptr<const PlacedSolid> solid;
     bool complemented = false;
   };
 
-  using Solids = LeafSolids<EnclosedSolid>;
-
-  template <std::size_t kind, class Use>
-  [[gnu::always_inline]] decltype(auto) visit_kind(const Place& place, const Use& use) const {
-    if constexpr (kind + 1 < std::tuple_size_v<decltype(Solids::lists)>) {
-      if (place.kind != kind) return visit_kind<kind + 1>(place, use);
-    }
-    return use(std::get<kind>(solids_.lists)[place.index]);
-  }
-  /// Takes a leaf, as what encloses it. Returns false if nothing does.
-  bool add(const EnclosedSolid& solid, bool complemented);
-
-  Solids solids_;
-  std::vector<Place> places_;     ///< by leaf
+  std::vector<EnclosedLeaf> leaves_;
   std::uint32_t first_face_ = 0;  ///< in the scene
   std::uint32_t end_face_ = 0;
   bool shares_surfaces_ = false;  ///< with an object before it in the scene

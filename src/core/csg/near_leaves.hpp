@@ -185,21 +185,14 @@ class NearLeaves {
   void add(std::uint32_t leaf) {
     if (count_ == leaves_.size()) leaves_.resize(2 * count_ + most_small);
     NearLeaf<Real>& near = leaves_[count_];
-    const bool is_near = filter_.visit(
-        leaf, [&](const auto& solid) { return lines_.enclose(solid, near.interval); });
-    if (!is_near) return;
+    if (!lines_.enclose(filter_.solid(leaf), near.interval)) return;
     near.leaf = leaf;
     ++count_;
   }
 
   void add_all() {
     if (leaves_.size() < program_.leaf_count()) leaves_.resize(most_small);
-    NearLeaf<Real>* next = leaves_.data();
-    filter_.for_each_leaf([&](const auto& solid) {
-      next->leaf = solid.leaf;
-      if (lines_.enclose(solid, next->interval)) ++next;
-    });
-    count_ = static_cast<std::size_t>(next - leaves_.data());
+    for (std::uint32_t leaf = 0; leaf < program_.leaf_count(); ++leaf) add(leaf);
   }
 
   /// Links the leaves that were added to the nodes above them. It does so afterwards, so that the

@@ -16,10 +16,10 @@
 
 #include "core/csg/heavy_paths.hpp"
 #include "core/csg/interval_filter.hpp"
-#include "core/csg/placement.hpp"
 #include "core/geometry/bvh.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/mesh/facet_attributes.hpp"
+#include "core/geometry/placement.hpp"
 #include "core/geometry/shape.hpp"
 
 namespace crt::core {
@@ -61,8 +61,8 @@ struct Leaf {
       exact;  ///< the shape in the exact tier; none in the standard one
   const Placement* placement =
       nullptr;  ///< shared by leaves that are placed alike; the scene owns it
-  const SphereShape* plain_sphere =
-      nullptr;    ///< its shape, of a sphere neither complemented nor moved, nor in instances
+  const void* family =
+      nullptr;    ///< of its shape, which is neither complemented nor moved, nor in instances
   Bounds bounds;  ///< in the world, of what can matter of it
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;

@@ -49,8 +49,7 @@ double PlaneFace::meeting_error(double t, double reach, double normal_length, do
 
 PlaneFace::Meeting PlaneFace::meet_axis_plane(const ObjectRay& ray) const {
   const double speed = ray.direction[axis_];
-  const auto meeting = AxisMeeting<double>::of(position_[axis_], ray.origin[axis_], speed,
-                                               ray.origin_low[axis_], ray.direction_low[axis_]);
+  const auto meeting = meet_across_axis<double>(ray);
   return {.found = meeting.found,
           .t = meeting.t,
           .t_low = meeting.t_low,

@@ -58,6 +58,17 @@ class PlaneFace {
     double rate = 0;   ///< n . d up to a positive factor
   };
   Meeting meet(const ObjectRay& ray) const;
+  /// Does so for a plane across a coordinate axis, of one ray or of several side by side.
+  template <class Real, class Ray>
+  AxisMeeting<Real> meet_across_axis(const Ray& ray) const {
+    const Real position = broadcast<Real>(position_[axis_]);
+    if constexpr (requires { ray.origin_low; }) {
+      return AxisMeeting<Real>::of(position, ray.origin[axis_], ray.direction[axis_],
+                                   ray.origin_low[axis_], ray.direction_low[axis_]);
+    } else {
+      return AxisMeeting<Real>::of(position, ray.origin[axis_], ray.direction[axis_]);
+    }
+  }
 
   /// Returns the standard tier's bound on the error of t. `reach` is the distance from the
   /// position, and `rate` is n . d for a normal n of the given length.

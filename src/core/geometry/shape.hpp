@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "core/geometry/bounds.hpp"
-#include "core/geometry/enclosed_solid.hpp"
+#include "core/geometry/placed_solid.hpp"
+#include "core/geometry/shape_span.hpp"
 #include "core/geometry/surface.hpp"
-#include "core/geometry/typed_shape.hpp"
 #include "core/ray/object_ray.hpp"
 #include "crt/primitives.hpp"
 
@@ -79,6 +79,12 @@ struct CoreSegment {
   double most_reach() const { return std::max(from_reach, to_reach); }
 };
 
+/// A BoundingSphere is a sphere around something that fills most of it.
+struct BoundingSphere {
+  Vec3 center;
+  double radius = 0;
+};
+
 class FacetAttributes;
 
 /// A ShadingNormal is a normal for shading, which has unit length.
@@ -107,16 +113,17 @@ class Shape {
   /// shape is.
   virtual Bounds bounds() const = 0;
 
-  /// Returns what encloses the shape along lines, in object space. Those that are not convex, or
-  /// that nobody has a formula for, say so by NoEnclosure.
-  virtual EnclosedSolid enclosed() const = 0;
-
-  /// Returns the shape itself, if there are conservative tests for its type. A shape without one is
-  /// asked for its crossings wherever a ray comes near.
-  virtual TypedShape typed() const { return {}; }
+  /// Returns what encloses the shape along lines where a placement puts it, or null if it has no
+  /// formula for that.
+  virtual std::unique_ptr<const PlacedSolid> placed(const Placement& /*placement*/) const {
+    return nullptr;
+  }
 
   /// Returns a core segment in object space, or nothing for shapes that are about as long as wide.
   virtual std::optional<CoreSegment> core_segment() const { return std::nullopt; }
+
+  /// Returns a bounding sphere in object space, or nothing for shapes that their box fits better.
+  virtual std::optional<BoundingSphere> bounding_sphere() const { return std::nullopt; }
 
   /// Appends every crossing of the whole line in ascending t. The crossings of a solid alternate
   /// between entering and leaving. Returns whether the line is inside at t = -inf. A tangent
@@ -131,6 +138,33 @@ class Shape {
   /// t > 0 if it leaves a convex solid outwards, and exactly one if inwards. Only a mesh may leave
   /// out that start, for a ray that leaves from an edge past all triangles.
   virtual bool crossings(const ObjectRay& ray, CrossingList& out) const = 0;
+
+  /// Returns whether span() ever finds anything where a placement puts the shape.
+  virtual bool finds_spans(const Placement& /*placement*/) const { return false; }
+  /// Finds what crossings() finds of each of some lines, to the last bit, where that is plain. The
+  /// lines start on no face's surface, or as `starts` says for a shape whose faces are all flat.
+  /// The first two are for lines that no transform moves.
+  virtual void span(const FilterLine<double>& /*line*/, const WantedEnds<double>& /*wanted*/,
+                    const FaceStarts<double>* /*starts*/, ShapeSpan<double>& /*span*/) const {}
+  virtual void span(const FilterLine<Lanes>& /*lines*/, const WantedEnds<Lanes>& /*wanted*/,
+                    const FaceStarts<Lanes>* /*starts*/, ShapeSpan<Lanes>& /*span*/) const {}
+  virtual void span(const ObjectRay& /*ray*/, const WantedEnds<double>& /*wanted*/,
+                    ShapeSpan<double>& /*span*/) const {}
+  virtual void span(const ObjectRayLanes& /*rays*/, const WantedEnds<Lanes>& /*wanted*/,
+                    ShapeSpan<Lanes>& /*span*/) const {}
+
+  /// Finds where lines leave that start on the surface and go in, as crossings() does, where it can
+  /// do so side by side. No transform moves them.
+  virtual void exit(const PlainRay<double>& /*line*/, SpanEnd<double>& /*end*/) const {}
+  virtual void exit(const RayLanes& /*lines*/, SpanEnd<Lanes>& /*end*/) const {}
+
+  /// Returns which of the wanted rays have no crossing at t > 0. They start on the surface and go
+  /// out. What is said of others means nothing.
+  virtual bool leaves_for_good(const ObjectRay& /*ray*/, bool /*wanted*/) const { return false; }
+  virtual LaneMask leaves_for_good(const ObjectRayLanes& /*rays*/,
+                                   const LaneMask& /*wanted*/) const {
+    return LaneMask{};
+  }
 
   /// Returns position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of
   /// this ray. Without `with_uv`, u and v need not be set, as they may cost more than the rest.
@@ -150,6 +184,14 @@ class Shape {
   virtual void points_on(const VectorLanes& offsets, const VectorLanes& directions,
                          std::uint32_t some, std::uint32_t face, bool with_uv,
                          SurfacePointLanes& points) const = 0;
+
+  /// Shapes of one family, if it is not null, may be asked by points_on_each().
+  virtual const void* family() const { return nullptr; }
+  /// Computes what points_on() does for rays that each cross a shape of its own at its t, to the
+  /// last bit. All shapes are of one family, and have one face. No transform moves them.
+  virtual void points_on_each(const std::array<const Shape*, lane_count>& /*shapes*/,
+                              const RayLanes& /*rays*/, const Lanes& /*t*/, bool /*with_uv*/,
+                              SurfacePointLanes& /*points*/) const {}
 
   /// Faces are counted, and each has the surface that it is a piece of, to find faces that
   /// coincide.
@@ -194,6 +236,34 @@ class ShapeOfPoints : public Shape {
   void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t /*some*/,
                  std::uint32_t face, bool with_uv, SurfacePointLanes& points) const final {
     derived().template write_point<Lanes>(offsets, directions, face, with_uv, points);
+  }
+
+ private:
+  const Derived& derived() const { return static_cast<const Derived&>(*this); }
+};
+
+/// A ShapeOfSpans also has one formula for the span of one line and of lanes: void
+/// Derived::write_span<Real>(ray, wanted, span). A ray is a PlainRay or an ObjectRay, or as many
+/// side by side.
+template <class Derived>
+class ShapeOfSpans : public ShapeOfPoints<Derived> {
+ public:
+  bool finds_spans(const Placement& /*placement*/) const final { return true; }
+  void span(const FilterLine<double>& line, const WantedEnds<double>& wanted,
+            const FaceStarts<double>* /*starts*/, ShapeSpan<double>& span) const final {
+    derived().template write_span<double>(plain_ray(line), wanted, span);
+  }
+  void span(const FilterLine<Lanes>& lines, const WantedEnds<Lanes>& wanted,
+            const FaceStarts<Lanes>* /*starts*/, ShapeSpan<Lanes>& span) const final {
+    derived().template write_span<Lanes>(plain_ray(lines), wanted, span);
+  }
+  void span(const ObjectRay& ray, const WantedEnds<double>& wanted,
+            ShapeSpan<double>& span) const final {
+    derived().template write_span<double>(ray, wanted, span);
+  }
+  void span(const ObjectRayLanes& rays, const WantedEnds<Lanes>& wanted,
+            ShapeSpan<Lanes>& span) const final {
+    derived().template write_span<Lanes>(rays, wanted, span);
   }
 
  private:

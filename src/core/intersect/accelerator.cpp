@@ -61,19 +61,6 @@ std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Wo
   return enclosed;
 }
 
-/// Returns the spheres that some objects are; none if one is something else.
-std::vector<BoundedSphere> spheres_of(const BoundingProxies& proxies) {
-  std::vector<BoundedSphere> spheres;
-  if (proxies.list.size() <= FlatBoxList::most_boxes) return spheres;
-  const auto is_sphere = [](const BoundingProxy& proxy) {
-    return proxy.kind == BoundingProxy::Kind::sphere && proxy.detail != nothing;
-  };
-  if (!std::all_of(proxies.list.begin(), proxies.list.end(), is_sphere)) return spheres;
-  spheres.reserve(proxies.list.size());
-  for (const BoundingProxy& proxy : proxies.list) spheres.push_back({proxy.place, proxy.radius});
-  return spheres;
-}
-
 }  // namespace
 
 Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials,
@@ -104,7 +91,7 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
   std::vector<Bounds> boxes;
   boxes.reserve(bounded.size());
   for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
-  tree_ = std::make_unique<EmbreeTree>(boxes, total, spheres_of(bounded_), workers.stop);
+  tree_ = std::make_unique<EmbreeTree>(boxes, total, workers.stop);
   if (boxes.size() > FlatBoxList::most_boxes) return;
   for (Bounds& box : boxes) box = box.grown(margin_);
   flat_box_list_ = FlatBoxList(boxes);
@@ -121,7 +108,7 @@ bool Accelerator::all_pass_by(const Bounds& box) const {
 MemoryUse Accelerator::memory() const {
   MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
   for (const BoundingProxies* proxies : {&bounded_, &unbounded_}) {
-    use.tree += bytes_of(proxies->list) + bytes_of(proxies->axes) + bytes_of(proxies->boxes);
+    use.tree += proxies->bytes();
   }
   use.tree += bytes_of(enclosed_) + bytes_of(isolated_) + flat_box_list_.bytes() +
               (tree_ ? tree_->bytes() : 0);

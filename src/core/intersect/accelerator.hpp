@@ -38,8 +38,6 @@ class Accelerator {
   /// leaves in RayWorkspace::here and near is of no use. Hits of other rays stay as they are.
   void nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                     Packets packets, RayWorkspace& work) const;
-  /// See PreparedData::first_leaves().
-  bool first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const;
   /// Returns for which of some rays there is any crossing; `starts` says what these start on.
   RayMask any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some, Packets packets,
                    RayWorkspace& work) const;
@@ -148,21 +146,12 @@ class Accelerator {
 
   /// Returns whether there are so few boxes that all of them are looked at.
   bool has_flat_box_list() const { return bounded_.list.size() <= FlatBoxList::most_boxes; }
-  /// Returns whether floats can find what rays cross first.
-  bool filters_spheres() const { return tree_ && !has_flat_box_list() && tree_->filters_spheres(); }
-  /// Returns whether all objects are spheres for which floats can.
-  bool has_only_spheres() const { return unbounded_.list.empty() && filters_spheres(); }
   /// Returns whether some rays are to be followed as a packet.
   bool pay_together(const RayBatch& rays, RayMask some, Packets packets) const;
   /// Returns the box around an isolated object in which there is nothing else.
   Bounds box_around(std::uint32_t object) const {
     return compiled_.objects[object].bounds.grown(margin_);
   }
-  /// Finds nearest hits by floats first, where has_only_spheres(), for rays that start in free
-  /// space. Their hits may hold anything. Returns the rays it has found them for; the hits of the
-  /// others stay as they are.
-  RayMask find_all_nearest_spheres(const RayBatch& rays, RayMask some,
-                                   std::span<RayHit, packet_size> hits, RayWorkspace& work) const;
   /// Takes rays that start into isolated solids to where they leave these: before that they cannot
   /// meet anything else. Returns which rays do; the hits of the others are left empty.
   RayMask leave_isolated(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,

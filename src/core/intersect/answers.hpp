@@ -24,13 +24,6 @@ struct Surrounding {
   std::uint32_t leaf = nothing;
 };
 
-/// A FirstLeaves has the nearest crossings of a batch's rays, without what else a hit has.
-struct FirstLeaves {
-  RayMask found = 0;  ///< for other rays nothing here means anything
-  RayBatch::Numbers t;
-  std::array<std::uint32_t, packet_size> leaves;
-};
-
 /// An Opacity says which things let no light through.
 struct Opacity {
   std::vector<bool> of_materials;

@@ -24,7 +24,7 @@ struct ExactTests {
   const Test& call;
 
   RayMask going() const { return mask_of(!(ray.t_max <= ray.t_min)); }
-  RayMask test(const BoundingProxy& proxy, const BoundingProxies& /*proxies*/, RayMask /*ray*/) {
+  RayMask test(const BoundingProxy& proxy, RayMask /*ray*/) {
     steps.step();
     call(proxy.object);
     return 0;
@@ -74,28 +74,21 @@ template <class Real, class Tests>
   for (const BoundingProxy& proxy : unbounded_.list) {
     if (tests.going() == 0) return;
     if constexpr (planes_last) {
-      if (proxy.kind == BoundingProxy::Kind::plane) {
-        tests.limit_by(proxy, unbounded_);
+      if (proxy.is_met_with_solid()) {
+        tests.limit_by(proxy);
         continue;
       }
     }
-    tests.test(proxy, unbounded_, tests.going());
+    tests.test(proxy, tests.going());
   }
-  RayMask open = tests.going();
-  if constexpr (Tests::from_near && !RayPacketOf<Real>::is_single) {
-    if (open != 0 && filters_spheres() && packet.starts.on_surface == 0) {
-      open &= ~tests.take_nearest_spheres(
-          tree_->nearest_spheres(packet.source, packet.limits, open), bounded_);
-    }
-  }
-  if (open != 0) {
+  if (const RayMask open = tests.going(); open != 0) {
     visit_boxes<Tests::from_near>(packet, open, [&](std::uint32_t box, RayMask rays) {
-      return tests.test(bounded_.list[box], bounded_, rays);
+      return tests.test(bounded_.list[box], rays);
     });
   }
   if (!planes_last) return;
   for (const BoundingProxy& proxy : unbounded_.list) {
-    if (proxy.kind == BoundingProxy::Kind::plane) tests.test(proxy, unbounded_, tests.going());
+    if (proxy.is_met_with_solid()) tests.test(proxy, tests.going());
   }
 }
 
@@ -187,7 +180,7 @@ RayMask Accelerator::leave_by_tests(const BoundingProxy& solid, const Rays<Real>
   RayPacketOf<Real> packet(rays, starts, some);
   const AskNearest asked{hits};
   ObjectTests<Real, AskNearest> tests(*this, packet, some, asked, work);
-  tests.test(solid, bounded_, some);
+  tests.test(solid, some);
   const Bounds margin = box_around(solid.object);
   RayMask done = 0;
   for_each_ray(some, [&](std::size_t i) {
@@ -270,9 +263,6 @@ bool Accelerator::pay_together(const RayBatch& rays, RayMask some, Packets packe
 void Accelerator::nearest_each(const RayBatch& rays, RayMask some,
                                std::span<RayHit, packet_size> hits, Packets packets,
                                RayWorkspace& work) const {
-  if (has_only_spheres() && (some & rays.with_starts) == 0 && pay_together(rays, some, packets)) {
-    some &= ~find_all_nearest_spheres(rays, some, hits, work);
-  }
   for_each_ray(some, [&](std::size_t i) { hits[i] = {}; });
   const RayMask open = some & ~leave_isolated(rays, some, hits, work);
   if (pay_together(rays, open, packets)) return find_nearest<Lanes>(rays, open, hits, work);

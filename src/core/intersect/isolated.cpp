@@ -1,11 +1,7 @@
 #include "core/intersect/isolated.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
-#include "core/math/vector.hpp"
 #include "core/shading/opacity.hpp"
 #include "core/tasks/parallel.hpp"
 
@@ -62,23 +58,12 @@ class BoxLevels {
   std::vector<std::vector<Bounds>> levels_;
 };
 
-/// Returns whether a plane's surface passes by a box.
-bool passes_by(const BoundingProxy& plane, const ProxyAxis& axis, const Bounds& box) {
-  const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;
-  const Vec3 steepness = glm::abs(axis.normal);
-  constexpr double roundings = 0x1p-40;
-  const double reach = glm::dot(steepness, box.upper - middle) +
-                       roundings * glm::dot(steepness, glm::abs(middle) + glm::abs(plane.place));
-  return std::abs(glm::dot(axis.normal, middle - plane.place)) > reach;
-}
-
 }  // namespace
 
 bool all_pass_by(const CompiledScene& scene, const BoundingProxies& proxies, const Bounds& box) {
   return std::all_of(proxies.list.begin(), proxies.list.end(), [&](const BoundingProxy& proxy) {
-    return proxy.kind == BoundingProxy::Kind::plane
-               ? passes_by(proxy, proxies.axes[proxy.detail], box)
-               : !scene.objects[proxy.object].bounds.touches(box);
+    return !scene.objects[proxy.object].bounds.touches(box) ||
+           (proxy.is_met_with_solid() && proxy.solid->passes_by(box));
   });
 }
 

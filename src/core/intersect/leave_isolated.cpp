@@ -1,10 +1,8 @@
-// Some rays find their nearest hits without the driver: those that start into an isolated solid,
-// and those among spheres alone.
+// Rays that start into an isolated solid find their nearest hits without the driver.
 #include <array>
 #include <bit>
 
 #include "core/intersect/first_crossing.hpp"
-#include "core/intersect/nearest_sphere_hits.hpp"
 #include "core/intersect/queries.hpp"
 
 namespace crt::core {
@@ -15,12 +13,12 @@ RayMask Accelerator::leave_isolated(const BoundingProxy& solid, const Rays<Real>
                                     RayWorkspace& work) const {
   const std::size_t first = group * lanes_in<Real>;
   RayMask done = 0;
-  if (resolves_exit(solid)) {
-    const auto exit = isolated_exit(solid, box_around(solid.object), rays.line(group),
+  if (solid.leaf != nullptr && solid.leaf->placement->is_identity()) {
+    const auto exit = isolated_exit(*solid.leaf, box_around(solid.object), rays.line(group),
                                     rays.begin(group), rays.end(group));
     done = lanes & mask_of(exit.found);
     for_each_ray(done, [&](std::size_t lane) {
-      write_first(solid, bounded_, lane_of(exit, lane), hits[first + lane]);
+      write_first(solid, lane_of(exit, lane), hits[first + lane]);
     });
     work.intersection_tests += static_cast<unsigned>(std::popcount(done));
   }
@@ -61,46 +59,6 @@ RayMask Accelerator::leave_isolated(const RayBatch& rays, RayMask some,
     }
   });
   return done;
-}
-
-bool Accelerator::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const {
-  if (!has_only_spheres() || (some & rays.with_starts) != 0 || !go_together(rays, some))
-    return false;
-  const NearestSpheres spheres = tree_->nearest_spheres(rays, rays.t_max, some);
-  const NearestSphereHits crossings(spheres, bounded_, rays);
-  if ((some & ~spheres.missing & ~crossings.known()) != 0) return false;
-  RayPacket::for_each_group(crossings.known(), [&](std::size_t group, RayMask lanes) {
-    const Lanes& t = crossings.t(group);
-    first.found |= (lanes & mask_of(t < rays.t_max[group])) << (group * lane_count);
-    first.t[group] = t;
-    for (std::size_t i = group * lane_count; i < (group + 1) * lane_count; ++i) {
-      first.leaves[i] = crossings.leaf(i);
-    }
-  });
-  return true;
-}
-
-RayMask Accelerator::find_all_nearest_spheres(const RayBatch& rays, RayMask some,
-                                              std::span<RayHit, packet_size> hits,
-                                              RayWorkspace& work) const {
-  const NearestSpheres spheres = tree_->nearest_spheres(rays, rays.t_max, some);
-  const NearestSphereHits crossings(spheres, bounded_, rays);
-  const RayMask known = spheres.missing | crossings.known();
-  for (std::size_t group = 0; group < RayBatch::group_count; ++group) {
-    const std::size_t first = group * lane_count;
-    const RayMask lanes = RayPacket::lanes(known, group);
-    RayMask found = RayPacket::lanes(crossings.known(), group);
-    if (found == 0) {
-      for_each_ray(lanes, [&](std::size_t lane) { hits[first + lane] = {}; });
-      continue;
-    }
-    found &= mask_of(crossings.t(group) < rays.t_max[group]);
-    for_each_ray(lanes, [&](std::size_t lane) {
-      crossings.write(first + lane, (found >> lane & 1u) != 0, hits[first + lane]);
-    });
-  }
-  work.intersection_tests += static_cast<unsigned>(std::popcount(crossings.known()));
-  return known;
 }
 
 }  // namespace crt::core

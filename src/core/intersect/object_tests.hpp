@@ -12,7 +12,6 @@
 
 #include "core/intersect/filter_rays.hpp"
 #include "core/intersect/first_crossing.hpp"
-#include "core/intersect/nearest_sphere_hits.hpp"
 #include "core/intersect/queries.hpp"
 
 namespace crt::core {
@@ -55,25 +54,15 @@ class ObjectTests {
   RayMask going() const { return going_; }
 
   /// Tests some rays against an object. Returns the rays whose limits it changed.
-  RayMask test(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays) {
+  RayMask test(const BoundingProxy& proxy, RayMask rays) {
     changed_ = 0;
     step(rays);
     rays &= ~filter_.left(proxy);
     if (rays == 0) return 0;
-    const BoxStarts starts = filter_.box_starts(proxy, proxies, rays);
     if constexpr (Asked::gathers) {
-      if (asked_.is_gathered(proxy.object)) return gather(proxy, proxies, rays, starts);
+      if (asked_.is_gathered(proxy.object)) return gather(proxy, rays);
     }
-    const Decision<RayMask> decision = filter_.decide(proxy, proxies, rays, starts, any_will_do);
-    RayMask open = rays & ~decision.rejected;
-    if constexpr (any_will_do) {
-      open &= ~decision.accepted;
-      settle(decision.accepted);
-    }
-    if (open != 0 && proxies.resolved_leaf(proxy) != nothing) {
-      const RayMask resolved = open & filter_.resolved(proxy, proxies, starts);
-      open = (open & ~resolved) | test_resolved(proxy, proxies, resolved, starts);
-    }
+    RayMask open = proxy.solid == nullptr ? rays : test_solid(proxy, rays);
     if (open == 0) return changed_;  // what follows looks farther away in memory
     if (const IntervalFilter* filter = accelerator_.filter(proxy.object)) {
       Packet::for_each_group(std::exchange(open, 0), [&](std::size_t group, RayMask lanes) {
@@ -85,32 +74,20 @@ class ObjectTests {
     return changed_;
   }
 
-  /// Takes the spheres that rays cross first, as far as floats can find them. Returns the rays for
-  /// which they can.
-  RayMask take_nearest_spheres(const NearestSpheres& spheres, const BoundingProxies& proxies) {
-    const NearestSphereHits crossings(spheres, proxies, packet_.source);
-    Packet::for_each_group(crossings.known(), [&](std::size_t group, RayMask known) {
-      const std::size_t first = group * group_size;
-      const Lanes& t = crossings.t(group);
-      commit(
-          group, t, crossings.reach(group), known & mask_of(t <= packet_.limits[group]),
-          [&](std::size_t lane) { return crossings.object(first + lane); },
-          [&](std::size_t lane, RayHit& hit) { crossings.write(first + lane, true, hit); });
-    });
-    count_tests(crossings.known());
-    return spheres.missing | crossings.known();
-  }
-
-  /// Lets a plane that rays surely meet bound what else matters to them.
-  void limit_by(const BoundingProxy& plane, const BoundingProxies& proxies) {
-    typename FilterRays<Real>::ByGroup last;
+  /// Lets an object that rays surely meet bound what else matters to them.
+  void limit_by(const BoundingProxy& proxy) {
     step(going_);
+    const RayMask rays = going_ & ~filter_.left(proxy);
+    typename FilterRays<Real>::Parts parts;
     const RayMask accepted =
-        filter_.decide(plane, proxies, going_ & ~filter_.left(plane), any_will_do, last).accepted;
+        filter_.decide(proxy, rays, filter_.starts_on(proxy, rays), true, parts).accepted;
     Packet::for_each_group(accepted, [&](std::size_t group, RayMask lanes) {
       // A hit there would have this reach.
       const FilterLine<Real>& lines = packet_.groups[group];
-      const Real reach = last[group] + coincidence_tolerance(plain_ray(lines), last[group], Real{});
+      const Enclosure<Real>& part = parts[group];
+      const auto enters = EnclosedCrossing<Real>{part.enter_from, part.enter_to}.counts(lines);
+      const Real last = select(enters, part.enter_to, part.leave_to);
+      const Real reach = last + coincidence_tolerance(plain_ray(lines), last, Real{});
       Real& limits = packet_.limits[group];
       limits = select(lanes_of_mask<Real>(lanes) && reach < limits, reach, limits);
       going_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * group_size));
@@ -157,15 +134,32 @@ class ObjectTests {
     if (query.limit() <= ray.t_min) going_ &= ~bit;
   }
 
-  /// Tests an object whose proxy suffices to find its first crossings. Returns the rays for which
-  /// it does not.
-  RayMask test_resolved(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays,
-                        const BoxStarts& starts) {
+  /// Tests an object by its solid, and by the spans of a leaf that it may be. Returns the rays that
+  /// this leaves open.
+  RayMask test_solid(const BoundingProxy& proxy, RayMask rays) {
+    const SolidStarts starts = filter_.starts_on(proxy, rays);
+    typename FilterRays<Real>::Parts parts;
+    const Decision<RayMask> decision = filter_.decide(proxy, rays, starts, any_will_do, parts);
+    RayMask open = rays & ~decision.rejected;
+    if constexpr (any_will_do) {
+      open &= ~decision.accepted;
+      settle(decision.accepted);
+    }
+    if (open == 0 || proxy.leaf == nullptr) return open;
+    const RayMask starting = open & starts.unknown;
+    const RayMask left = starting == 0 ? 0 : filter_.left_again(proxy, starting);
+    return (starting & ~left) | test_leaf(proxy, open & ~starting, starts, parts);
+  }
+
+  /// Tests an object that is a leaf by the leaf's spans. Returns the rays for which these do not
+  /// suffice.
+  RayMask test_leaf(const BoundingProxy& proxy, RayMask rays, const SolidStarts& starts,
+                    const typename FilterRays<Real>::Parts& parts) {
     // All are found before any is taken, so that none waits for what is made of another.
     std::array<GroupCrossing, Packet::group_count> crossings;
     Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
       new (&crossings[group].first)
-          FirstCrossing<Real>(filter_.first_crossing(proxy, proxies, group, lanes, starts));
+          FirstCrossing<Real>(filter_.first_crossing(proxy, group, lanes, starts, parts[group]));
     });
     RayMask open = 0;
     Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
@@ -175,9 +169,8 @@ class ObjectTests {
       count_tests(known);
       const RayMask found = known & mask_of(first.found && first.t <= packet_.limits[group]);
       if (found == 0) return;
-      take(proxy.object, group, first, found, [&](std::size_t lane, RayHit& hit) {
-        write_first(proxy, proxies, lane_of(first, lane), hit);
-      });
+      take(proxy.object, group, first, found,
+           [&](std::size_t lane, RayHit& hit) { write_first(proxy, lane_of(first, lane), hit); });
     });
     return open;
   }
@@ -231,14 +224,17 @@ class ObjectTests {
   }
 
   /// Gathers all crossings with an object, of which not all is opaque.
-  RayMask gather(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays,
-                 const BoxStarts& starts) {
-    RayMask open = rays & ~filter_.decide(proxy, proxies, rays, starts, false).rejected;
-    if (proxy.is_sphere() && proxies.resolved_leaf(proxy) != nothing) {
-      Packet::for_each_group(
-          open & filter_.resolved(proxy, proxies, starts), [&](std::size_t group, RayMask lanes) {
-            open &= ~(gather_chords(proxy, proxies, group, lanes) << (group * group_size));
-          });
+  RayMask gather(const BoundingProxy& proxy, RayMask rays) {
+    RayMask open = rays;
+    if (proxy.solid != nullptr) {
+      const SolidStarts starts = filter_.starts_on(proxy, rays);
+      typename FilterRays<Real>::Parts parts;
+      open &= ~filter_.decide(proxy, rays, starts, false, parts).rejected;
+      if (proxy.leaf != nullptr && proxy.leaf->shape->is_convex()) {
+        Packet::for_each_group(open & ~starts.some, [&](std::size_t group, RayMask lanes) {
+          open &= ~(gather_ends(proxy, group, lanes) << (group * group_size));
+        });
+      }
     }
     for_each_ray(open, [&](std::size_t number) {
       const WorldRay& ray = packet_.source.ray(number);
@@ -251,21 +247,34 @@ class ObjectTests {
     return changed_;
   }
 
-  /// Gathers the crossings with a sphere of lanes that do not start on it. Returns the lanes for
-  /// which its proxy suffices.
-  RayMask gather_chords(const BoundingProxy& sphere, const BoundingProxies& proxies,
-                        std::size_t group, RayMask lanes) {
+  /// Gathers the crossings with a convex leaf of lanes that do not start on it. Returns the lanes
+  /// for which its spans suffice.
+  RayMask gather_ends(const BoundingProxy& proxy, std::size_t group, RayMask lanes) {
     const FilterLine<Real>& lines = packet_.groups[group];
     const Real& limits = packet_.limits[group];
-    const auto ends = crossings_of_sphere(sphere, proxies, lines);
-    const auto is_clear = [&](const FirstCrossing<Real>& end) {
-      return !end.unknown && (!end.found || end.t < lines.certain_to || end.t > limits);
+    const auto asked = lanes_of_mask<Real>(lanes);
+    ShapeSpan<Real> span;
+    find_span(*proxy.leaf, lines, {.enter = asked, .leave = asked}, nullptr, span);
+    const auto is_after = [&](const SpanEnd<Real>& end) {
+      return after_start(lines, end.t, end.error);
     };
-    const RayMask done = lanes & mask_of(is_clear(ends[0]) && is_clear(ends[1]));
+    const auto is_clear = [&](const SpanEnd<Real>& end) {
+      const auto start = is_after(end);
+      return span.misses || (end.known && !start.unknown &&
+                             (!start.surely || end.t < lines.certain_to || end.t > limits));
+    };
+    const RayMask done = lanes & mask_of(is_clear(span.enter) && is_clear(span.leave));
     count_tests(done);
-    for (const FirstCrossing<Real>& end : ends) {
-      for_each_ray(done & mask_of(end.found && end.t <= limits), [&](std::size_t lane) {
-        write_first(sphere, proxies, lane_of(end, lane),
+    for (const SpanEnd<Real>* end : {&span.enter, &span.leave}) {
+      const auto counts = !span.misses && is_after(*end).surely && end->t <= limits;
+      FirstCrossing<Real> crossing{.found = counts,
+                                   .t = end->t,
+                                   .error = end->error,
+                                   .face = end->face,
+                                   .leave_root = span.leave_root};
+      if (end == &span.enter) crossing.entering = asked;
+      for_each_ray(done & mask_of(counts), [&](std::size_t lane) {
+        write_first(proxy, lane_of(crossing, lane),
                     asked_.found[group * group_size + lane].emplace_back());
       });
     }
@@ -300,15 +309,15 @@ class ObjectTests {
       const RayMask alike = to_come & same_way &
                             mask_of(changes.leaf == broadcast<Real>(lane_of(changes.leaf, first)));
       to_come &= ~alike;
-      open |= take_changes(object, filter, group, alike, changes);
+      open |= take_changes(object, group, alike, changes);
     }
     count_tests(asked & ~open);
     return open;
   }
 
   /// Takes changes of one leaf, all into it or all out of it. Returns where none has been found.
-  RayMask take_changes(std::uint32_t object, const IntervalFilter& filter, std::size_t group,
-                       RayMask alike, const BoundaryChanges<Real>& changes) {
+  RayMask take_changes(std::uint32_t object, std::size_t group, RayMask alike,
+                       const BoundaryChanges<Real>& changes) {
     const CompiledScene& scene = accelerator_.compiled();
     const FilterLine<Real>& lines = packet_.groups[group];
     const std::size_t first = first_ray(alike);
@@ -316,24 +325,30 @@ class ObjectTests {
     const std::uint32_t index = scene.objects[object].first_leaf + number;
     const Leaf& leaf = scene.leaves[index];
     RayMask resolved = 0;
-    if (has_resolved_crossings(leaf)) {
+    if (!leaf.exact) {
       const bool into_leaf = lane_of(changes.into_leaf, first);
-      const auto change = crossing_of_change(filter, number, leaf, into_leaf, lines);
-      const FirstCrossing<Real>& crossing = change.crossing;
+      const auto wanted = lanes_of_mask<Real>(alike);
+      ShapeSpan<Real> ends;
+      find_span(leaf, lines,
+                {.enter = into_leaf ? wanted : MaskOf<Real>{},
+                 .leave = into_leaf ? MaskOf<Real>{} : wanted},
+                nullptr, ends);
+      const SpanEnd<Real>& end = into_leaf ? ends.enter : ends.leave;
       const RayMask starting = Packet::lanes(rays_with(packet_.starts.leaves, index), group);
       const auto span = spans_in(leaf.bounds, lines, alike);
-      const auto in_span = crossing.t >= span.enter && crossing.t <= span.leave;
-      resolved = alike & ~starting & mask_of(crossing.found && in_span);
+      const auto in_span = end.t >= span.enter && end.t <= span.leave;
+      resolved = alike & ~starting & mask_of(end.known && in_span);
       work_.csg.events += static_cast<unsigned>(std::popcount(resolved));
+      const FirstCrossing<Real> crossing{.t = end.t, .error = end.error};
       take(object, group, crossing, resolved, [&](std::size_t lane, RayHit& hit) {
-        const auto face = static_cast<std::uint32_t>(lane_of(crossing.face, lane));
-        hit = {.t = lane_of(crossing.t, lane),
-               .error = lane_of(crossing.error, lane),
+        const auto face = static_cast<std::uint32_t>(lane_of(end.face, lane));
+        hit = {.t = lane_of(end.t, lane),
+               .error = lane_of(end.error, lane),
                .object = object,
                .leaf = index,
                .face = face,
-               .surface = scene.face_surfaces[leaf.first_face + face].surface,
-               .root = change.root,
+               .surface = leaf.surface_of(face, scene.face_surfaces).surface,
+               .root = into_leaf ? std::uint8_t{0} : ends.leave_root,
                .entering = lane_of(changes.into_object, lane)};
       });
     }

@@ -171,10 +171,6 @@ bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
   return accelerator_->any(ray, work);
 }
 
-bool PreparedData::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const {
-  return accelerator_->first_leaves(rays, some, first);
-}
-
 void PreparedData::intersect_each(const RayBatch& rays, RayMask some,
                                   std::span<RayHit, packet_size> hits, RayWorkspace& work,
                                   Packets packets) const {
@@ -281,30 +277,30 @@ SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit,
   return point;
 }
 
-RayMask PreparedData::on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
-                                      RayMask some) const {
+RayMask PreparedData::on_shapes_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
+                                     RayMask some) const {
   const Leaf& like = leaf(first);
-  if (like.plain_sphere == nullptr) return 0;
+  if (like.family == nullptr) return 0;
   RayMask result = 0;
   for_each_ray(some, [&](std::size_t lane) {
     const Leaf& leaf = this->leaf(hits[lane]);
-    const bool is_like = leaf.plain_sphere != nullptr && leaf.material == like.material &&
+    const bool is_like = leaf.family == like.family && leaf.material == like.material &&
                          hits[lane].entering == first.entering;
     result |= static_cast<RayMask>(is_like) << lane;
   });
   return result;
 }
 
-void PreparedData::sphere_points(std::span<const RayHit, lane_count> hits, RayMask some,
-                                 const RayLanes& lines, const Lanes& t, bool with_uv,
-                                 SurfacePointLanes& points) const {
+void PreparedData::points_on_shapes(std::span<const RayHit, lane_count> hits, RayMask some,
+                                    const RayLanes& lines, const Lanes& t, bool with_uv,
+                                    SurfacePointLanes& points) const {
   const std::size_t first = first_ray(some);
-  std::array<const SphereShape*, lane_count> spheres;
+  std::array<const Shape*, lane_count> shapes;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const RayHit& hit = hits[(some >> lane & 1u) != 0 ? lane : first];
-    spheres[lane] = leaf(hit).plain_sphere;
+    shapes[lane] = leaf(hit).shape.get();
   }
-  SphereShape::points_on_each(spheres, lines, t, with_uv, points);
+  shapes[0]->points_on_each(shapes, lines, t, with_uv, points);
 }
 
 StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {

@@ -90,9 +90,6 @@ class PreparedData {
   /// But RayWorkspace::here and near mean nothing after it. Hits of other rays stay as they are.
   void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                       RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
-  /// Finds how far the nearest crossings of some rays of a batch are, and on which leaves, if that
-  /// can be found faster. Returns false if it cannot.
-  bool first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const;
   /// Prefetches the memory that the points of some of these hits need.
   void prefetch_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
   RayMask occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
@@ -163,14 +160,15 @@ class PreparedData {
     if (leaf.complemented) points.normal = -points.normal;
   }
 
-  /// Returns which of some rays of a group hit spheres of one material from the same side, as
-  /// `first` does. Returns none if `first` is on anything else, or on a sphere that is moved or a
-  /// cutter.
-  RayMask on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
-                          RayMask some) const;
-  /// Computes points as object_points() does, for rays whose hits are on spheres of their own.
-  void sphere_points(std::span<const RayHit, lane_count> hits, RayMask some, const RayLanes& lines,
-                     const Lanes& t, bool with_uv, SurfacePointLanes& points) const;
+  /// Returns which of some rays of a group hit shapes of one family (Shape::family()) and of one
+  /// material, from the same side, as `first` does. Returns none if `first` is on a shape that is
+  /// moved or a cutter.
+  RayMask on_shapes_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
+                         RayMask some) const;
+  /// Computes points as object_points() does, for rays whose hits are on such shapes of their own.
+  void points_on_shapes(std::span<const RayHit, lane_count> hits, RayMask some,
+                        const RayLanes& lines, const Lanes& t, bool with_uv,
+                        SurfacePointLanes& points) const;
 
   /// Transforms points of a hit like `hit` to the world.
   void take_to_world(const RayHit& hit, SurfacePointLanes& points) const {

@@ -69,6 +69,17 @@ struct Enclosure {
   }
 };
 
+inline void set_lane(Enclosure<double>& part, std::size_t /*lane*/,
+                     const Enclosure<double>& of_lane) {
+  part = of_lane;
+}
+inline void set_lane(Enclosure<Lanes>& part, std::size_t lane, const Enclosure<double>& of_lane) {
+  part.enter_from[lane] = of_lane.enter_from;
+  part.enter_to[lane] = of_lane.enter_to;
+  part.leave_from[lane] = of_lane.leave_from;
+  part.leave_to[lane] = of_lane.leave_to;
+}
+
 /// Where a line crosses a surface, which it does just once: at some t of an interval, as above.
 template <class Real>
 struct EnclosedCrossing {

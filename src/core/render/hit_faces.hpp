@@ -11,11 +11,10 @@ namespace crt::core {
 
 /// AlikeRays are rays whose hits are alike: all from the same side and of one material.
 struct AlikeRays {
-  RayMask on_face = 0;  ///< on the face that the first of them hits
-  RayMask on_spheres =
-      0;  ///< on other spheres, if that is on one; see PreparedData::on_spheres_like()
+  RayMask on_face = 0;    ///< on the face that the first of them hits
+  RayMask on_others = 0;  ///< on other shapes; see PreparedData::on_shapes_like()
 
-  RayMask all() const { return on_face | on_spheres; }
+  RayMask all() const { return on_face | on_others; }
 };
 
 /// HitFaces has the hits of as many rays as there are lanes.
@@ -33,18 +32,18 @@ class HitFaces {
     const RayMask on_face =
         mask_of(faces_ == of(first) && entering_ == std::uint64_t{first.entering}) & some;
     const RayMask others = some & ~on_face;
-    return {on_face, others == 0 ? 0 : data_.on_spheres_like(first, hits_, others)};
+    return {on_face, others == 0 ? 0 : data_.on_shapes_like(first, hits_, others)};
   }
 
   /// Computes the points in object space where alike rays hit, each at its t. For other rays the
   /// point means nothing.
   void object_points(const AlikeRays& alike, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
-    if (alike.on_spheres == 0) {
+    if (alike.on_others == 0) {
       data_.object_points(hits_[first_ray(alike.on_face)], alike.on_face, lines, t, with_uv,
                           points);
     } else {
-      data_.sphere_points(hits_, alike.all(), lines, t, with_uv, points);
+      data_.points_on_shapes(hits_, alike.all(), lines, t, with_uv, points);
     }
   }
 

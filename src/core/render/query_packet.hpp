@@ -121,19 +121,10 @@ class QueryPacket {
 
   /// Finds nearest hits, with answers in columns.
   void nearest(const Distances& answers) {
-    FirstLeaves leaves;
-    const bool are_resolved = data_.first_leaves(rays_, all(), leaves);
-    if (!are_resolved) data_.intersect_each(rays_, all(), hits_, work_);
+    data_.intersect_each(rays_, all(), hits_, work_);
     for (std::size_t first = 0; first < count_; first += lane_count) {
-      const std::size_t group = first / lane_count;
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
-      if (are_resolved) {
-        set_distances(
-            group, leaves.t[group], RayPacket::lanes(leaves.found, group),
-            [&](std::size_t lane) { return data_.entity_id_or_any(leaves.leaves[first + lane]); });
-      } else {
-        find_distances(first, count);
-      }
+      find_distances(first, count);
       write(answers.subspan(first, count));
     }
   }

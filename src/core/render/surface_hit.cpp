@@ -98,7 +98,7 @@ void look_up(const PreparedData& data, const RayLanes& rays,
     const Side side = first.entering ? Side::outside : Side::inside;
     const StartPoint start = data.start_face(first, side);
     for_each_ray(rays_alike.on_face, [&](std::size_t lane) { group.starts[lane].set_face(start); });
-    for_each_ray(rays_alike.on_spheres, [&](std::size_t lane) {
+    for_each_ray(rays_alike.on_others, [&](std::size_t lane) {
       group.starts[lane].set_face(data.start_face(hits[lane], side));
     });
     faces.object_points(rays_alike, rays, t, material.uses_uv, points);

@@ -39,8 +39,6 @@ using FloatLanes = SideBySide<float, lane_count>;
 using IntLanes = SideBySide<std::int32_t, lane_count>;
 
 inline constexpr std::size_t octet_size = 8;
-using FloatOctet = SideBySide<float, octet_size>;
-using OctetMask = FloatOctet::mask_type;
 using IntOctet = SideBySide<std::int32_t, octet_size>;
 using BitOctet = SideBySide<std::uint32_t, octet_size>;
 
@@ -280,15 +278,6 @@ using std::min;
 
 /// Returns a b + c, rounded once or twice, whichever is faster. It is of use where a bound on the
 /// error covers both.
-[[gnu::always_inline]] inline FloatOctet multiply_add(const FloatOctet& a, const FloatOctet& b,
-                                                      const FloatOctet& c) {
-#ifdef __FMA__
-  return std::bit_cast<FloatOctet>(_mm256_fmadd_ps(
-      std::bit_cast<__m256>(a), std::bit_cast<__m256>(b), std::bit_cast<__m256>(c)));
-#else
-  return a * b + c;
-#endif
-}
 template <class Real>
 [[gnu::always_inline]] inline Real multiply_add(const Real& a, const Real& b, const Real& c) {
 #ifdef __FMA__
@@ -300,9 +289,7 @@ template <class Real>
 
 /// BitsOf has whole numbers of as many bits as a Real's numbers have, by lane.
 template <class Real>
-using BitsOf =
-    std::conditional_t<std::is_same_v<Real, double>, std::uint64_t,
-                       std::conditional_t<std::is_same_v<Real, Lanes>, WordLanes, BitOctet>>;
+using BitsOf = std::conditional_t<std::is_same_v<Real, double>, std::uint64_t, WordLanes>;
 
 /// Returns 1 / x or up to an eighth more, without a quotient, which takes long. x is not negative;
 /// above 2^100 the result is that of 2^100. The bits of a number are nearly its logarithm (Blinn,
@@ -310,15 +297,8 @@ using BitsOf =
 template <class Real>
 [[gnu::always_inline]] inline Real inverse_or_more(const Real& x) {
   using Bits = BitsOf<Real>;
-  constexpr bool is_double = !std::is_same_v<Real, FloatOctet>;
-  constexpr auto bits_of_one_twice = [] {
-    if constexpr (is_double) {
-      return std::uint64_t{0x7fe0000000000000};
-    } else {
-      return std::uint32_t{0x7f000000};
-    }
-  }();
-  const Real within = min(x, Real(0x1p100F));
+  constexpr std::uint64_t bits_of_one_twice = 0x7fe0000000000000;
+  const Real within = min(x, Real(0x1p100));
   return bits_as<Real>(Bits(bits_of_one_twice - bits_as<Bits>(within)));
 }
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/geometry/box/enclose.hpp"
 #include "core/geometry/checks.hpp"
 #include "core/math/vector.hpp"
 
@@ -83,6 +84,65 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
   }
   return faces;
 }
+
+namespace {
+
+/// Finds where lines that pass through a box enter it, or else leave it, if that is plainly on one
+/// face. Next to an edge the exact test says which face is met.
+template <class Real>
+SpanEnd<Real> end_in_box(const EnclosedBox& box, const BoxMeetings<Real>& meetings,
+                         const FilterLine<Real>& line, const MaskOf<Real>& enters) {
+  // The greatest of three, of which the second must plainly be less.
+  const std::array<Real, 3> t = {select(enters, meetings.enter[0], -meetings.leave[0]),
+                                 select(enters, meetings.enter[1], -meetings.leave[1]),
+                                 select(enters, meetings.enter[2], -meetings.leave[2])};
+  const Real greatest = max(max(t[0], t[1]), t[2]);
+  const Real second = max(min(t[0], t[1]), min(max(t[0], t[1]), t[2]));
+  // (Minus infinity with its error is no number, and is not next to anything.)
+  const auto beside = second + meetings.error_of(second) >= greatest - meetings.error_of(greatest);
+
+  const auto across_x = t[0] == greatest;
+  const auto across_y = t[1] == greatest;
+  const auto chosen = [&](const Real& x, const Real& y, const Real& z) {
+    return select(across_x, x, select(across_y, y, z));
+  };
+  const auto of_axis = [&](const Vec3& v) {
+    return chosen(broadcast<Real>(v.x), broadcast<Real>(v.y), broadcast<Real>(v.z));
+  };
+  const Real speed = chosen(line.direction[0], line.direction[1], line.direction[2]);
+  const auto downwards = speed < 0.0;
+  const auto is_upper = (enters && downwards) || (!enters && !downwards);
+  const Real position = select(is_upper, of_axis(box.upper), of_axis(box.lower));
+  const auto meeting = AxisMeeting<Real>::of(
+      position, chosen(line.origin[0], line.origin[1], line.origin[2]), speed);
+  return {.known = meetings.known && meeting.found && !beside,
+          .t = meeting.t,
+          .error = meeting.error,
+          .face = of_axis({0, 2, 4}) + select(is_upper, broadcast<Real>(1), Real{})};
+}
+
+}  // namespace
+
+template <class Real>
+void BoxShape::write_span(const FilterLine<Real>& line, const WantedEnds<Real>& wanted,
+                          const FaceStarts<Real>* starts, ShapeSpan<Real>& span) const {
+  const EnclosedBox box{lower_, upper_};
+  const auto meetings = BoxMeetings<Real>::of(box, line, starts);
+  const Enclosure<Real> part = meetings.enclosure();
+  const MaskOf<Real> passes = part.enter_to < part.leave_from;
+  span.misses = part.enter_from > part.leave_to;
+  // Mostly each line has one end at most that is asked for.
+  span.enter = end_in_box(box, meetings, line, wanted.enter);
+  span.leave = any(wanted.enter && wanted.leave)
+                   ? end_in_box(box, meetings, line, MaskOf<Real>{})
+                   : span.enter;
+  span.enter.known = span.enter.known && wanted.enter && passes;
+  span.leave.known = span.leave.known && wanted.leave && passes;
+}
+template void BoxShape::write_span(const FilterLine<double>&, const WantedEnds<double>&,
+                                   const FaceStarts<double>*, ShapeSpan<double>&) const;
+template void BoxShape::write_span(const FilterLine<Lanes>&, const WantedEnds<Lanes>&,
+                                   const FaceStarts<Lanes>*, ShapeSpan<Lanes>&) const;
 
 template <class Real>
 void BoxShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t face,

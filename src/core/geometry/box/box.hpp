@@ -10,6 +10,7 @@
 
 #include <array>
 
+#include "core/geometry/box/enclose.hpp"
 #include "core/geometry/plane_face.hpp"
 #include "core/geometry/shape.hpp"
 
@@ -20,8 +21,18 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   explicit BoxShape(const Box& box);
 
   bool is_solid() const override { return true; }
-  TypedShape typed() const override { return this; }
-  EnclosedSolid enclosed() const override { return EnclosedBox{lower_, upper_}; }
+  std::unique_ptr<const PlacedSolid> placed(const Placement& placement) const override {
+    return place(EnclosedBox{lower_, upper_}, placement);
+  }
+  bool finds_spans(const Placement& placement) const override { return placement.is_identity(); }
+  void span(const FilterLine<double>& line, const WantedEnds<double>& wanted,
+            const FaceStarts<double>* starts, ShapeSpan<double>& span) const override {
+    write_span(line, wanted, starts, span);
+  }
+  void span(const FilterLine<Lanes>& lines, const WantedEnds<Lanes>& wanted,
+            const FaceStarts<Lanes>* starts, ShapeSpan<Lanes>& span) const override {
+    write_span(lines, wanted, starts, span);
+  }
   std::optional<CoreSegment> core_segment() const final;
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
@@ -38,6 +49,9 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   /// Returns the faces, a bit each, through which a ray in free space may enter or leave the box,
   /// as far as plain doubles can decide. There is none if it surely misses.
   unsigned possible_ends(const ObjectRay& ray) const;
+  template <class Real>
+  void write_span(const FilterLine<Real>& line, const WantedEnds<Real>& wanted,
+                  const FaceStarts<Real>* starts, ShapeSpan<Real>& span) const;
 
   Vec3 lower_;
   Vec3 upper_;

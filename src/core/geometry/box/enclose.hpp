@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/ray/enclosure.hpp"
+#include "core/geometry/placed_solid.hpp"
 
 namespace crt::core {
 
@@ -26,6 +26,7 @@ struct EnclosedBox {
     return EnclosedBox{*at_lower, *at_upper};
   }
 
+  static constexpr std::uint32_t flat_faces = 6;
   static constexpr std::size_t axis_of(std::uint32_t face) { return face / 2; }
   static constexpr bool is_upper(std::uint32_t face) { return face % 2 == 1; }
 };
@@ -44,6 +45,15 @@ struct BoxMeetings {
   Mask known;
 
   static BoxMeetings of(const EnclosedBox& box, const FilterLine<Real>& line);
+  /// Does so for lines of which some start on the surfaces of faces, unless `starts` is null.
+  static BoxMeetings of(const EnclosedBox& box, const FilterLine<Real>& line,
+                        const FaceStarts<Real>* starts) {
+    BoxMeetings result = of(box, line);
+    for (std::size_t face = 0; starts != nullptr && face < EnclosedBox::flat_faces; ++face) {
+      if (any(starts->on[face])) result.start_on(face, starts->on[face], line);
+    }
+    return result;
+  }
 
   /// Makes lines start on the surface of a face by identity, inwards or outwards. The face is
   /// exactly at t = 0; it is put before that by next to nothing, which is plainly not after the
@@ -127,8 +137,8 @@ void BoxMeetings<Real>::start_on(std::size_t face, const Mask& lines,
 /// near it; the enclosure then means nothing.
 template <class Real>
 bool enclose(const EnclosedBox& box, const FilterLine<Real>& line, const MaskOf<Real>& asked,
-             Enclosure<Real>& part) {
-  part = BoxMeetings<Real>::of(box, line).enclosure();
+             const FaceStarts<Real>* starts, Enclosure<Real>& part) {
+  part = BoxMeetings<Real>::of(box, line, starts).enclosure();
   const MaskOf<Real> misses = part.enter_from > part.leave_to;
   if (!any(asked && !misses)) return false;
   if (any(misses)) part.set_outside(misses);

@@ -39,7 +39,6 @@ class CapsuleShape final : public Shape {
 
   bool is_solid() const override { return true; }
   Bounds bounds() const override;
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   std::optional<CoreSegment> core_segment() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t face) const override { return part(face).anchor(0); }

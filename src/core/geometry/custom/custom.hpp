@@ -29,7 +29,6 @@ class CalledShape final : public ShapeOfSinglePoints {
   bool is_solid() const override { return true; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override { return bounds_; }
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return middle_of(bounds_); }
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,

@@ -28,7 +28,6 @@ class ExtrusionShape final : public ShapeOfPoints<ExtrusionShape> {
   bool is_solid() const override { return true; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override { return bounds_; }
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t face) const override;
   template <class Real>

@@ -1,4 +1,4 @@
-// first_entry() finds where rays plainly enter a cylinder or cone through its side. It computes as
+// write_span() finds where rays plainly enter a cylinder or cone through its side. It computes as
 // FrustumShape::crossings() does, for as many rays side by side as there are lanes. What is not
 // plain is left to that function.
 #include "core/geometry/frustum/frustum.hpp"
@@ -6,7 +6,9 @@
 namespace crt::core {
 
 template <class Real, class Ray>
-FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
+void FrustumShape::write_span(const Ray& ray, const WantedEnds<Real>& wanted,
+                              ShapeSpan<Real>& span) const {
+  if (!any(wanted.enter)) return;
   auto line = NearLineOf<Real>::at_closest(ray, narrow_, unit_);
   const Vec3Of<Real> axis = broadcast<Real>(axis_);
   const SideRatesOf<Real> rates = side_rates(line);
@@ -14,7 +16,7 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   const Real sphere = line.to_t_length((height_ + wide_radius_) / sqrt(line.squared_length));
   const Real origin = line.to_t(Real{});
   const auto is_near = closest >= origin - sphere && closest <= origin + sphere;
-  if (!any(is_near)) return {};
+  if (!any(is_near)) return;
   line.move_to(ray, narrow_, closest);
 
   // These points are between the caps by more than the errors of the caps. So the caps have no part
@@ -27,11 +29,11 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   };
   const SideEquationOf<Real> side = side_equation(line, rates);
   const auto plainly = is_near && is_between(Real{}) && side.a > 0.0 && passes_plainly(line, side);
-  FrustumEntry<Real> entry{.rejected = plainly && side.discriminant < 0.0};
+  span.misses = plainly && side.discriminant < 0.0;
   const Real x = SideRoots<Real>(side).low;
   const Real root = sqrt(max(side.discriminant, Real{}));
-  const auto meets = plainly && is_between(x) && !(entry.rejected || side.is_on_other_nappe());
-  if (!any(meets)) return entry;
+  const auto meets = plainly && is_between(x) && !(span.misses || side.is_on_other_nappe());
+  if (!any(meets)) return;
 
   const Real at_root = abs(side.radius + side.radius_rate * x);
   const Real rate = root / at_root;
@@ -42,6 +44,7 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   const Real graze = ray_speed / sqrt(abs(side.a)) * grazing_error(line, reach, wide_radius_);
   const Real longest = min(graze, reach / ray_speed);
   const Real t = line.to_t(x);
+  SpanEnd<Real>& entry = span.enter;
   entry.error = standard_error(line, t, reach, rate, longest);
 
   // This is one step of Newton's iteration from the root itself.
@@ -59,11 +62,8 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   // The chord is so long that t separates where the ray enters from where it leaves.
   const auto is_long = line.to_t_length(half_chord) > 4.0 * rounding_of(t);
   entry.known = meets && is_long && is_square && side.is_straight(step, at_root, most_reach);
-  return entry;
 }
-template FrustumEntry<double> FrustumShape::first_entry<double>(const PlainRay<double>&) const;
-template FrustumEntry<double> FrustumShape::first_entry<double>(const ObjectRay&) const;
-template FrustumEntry<Lanes> FrustumShape::first_entry<Lanes>(const RayLanes&) const;
-template FrustumEntry<Lanes> FrustumShape::first_entry<Lanes>(const ObjectRayLanes&) const;
+
+template class ShapeOfSpans<FrustumShape>;
 
 }  // namespace crt::core

@@ -3,6 +3,7 @@
 #include <crt/elementary.hpp>
 
 #include "core/geometry/disc/disc.hpp"
+#include "core/geometry/frustum/enclose.hpp"
 #include "core/geometry/frustum/start.hpp"
 
 namespace crt::core {
@@ -42,16 +43,17 @@ Bounds FrustumShape::bounds() const {
   return result;
 }
 
-EnclosedSolid FrustumShape::enclosed() const {
+std::unique_ptr<const PlacedSolid> FrustumShape::placed(const Placement& placement) const {
   const bool widens = narrow_ == from_;
-  return EnclosedFrustum{.narrow = narrow_,
-                         .axis = axis_,
-                         .height = height_ * unit_,
-                         .narrow_radius = narrow_radius_ * unit_,
-                         .wide_radius = wide_radius_ * unit_,
-                         .cosine = cosine_,
-                         .sine = sine_,
-                         .wide_face = widens ? 2U : 1U};
+  const EnclosedFrustum solid{.narrow = narrow_,
+                              .axis = axis_,
+                              .height = height_ * unit_,
+                              .narrow_radius = narrow_radius_ * unit_,
+                              .wide_radius = wide_radius_ * unit_,
+                              .cosine = cosine_,
+                              .sine = sine_,
+                              .wide_face = widens ? 2U : 1U};
+  return place(solid, placement);
 }
 
 bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {

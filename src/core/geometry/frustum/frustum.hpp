@@ -43,38 +43,23 @@ namespace crt::core {
 
 struct SideStart;
 
-/// A FrustumEntry is where a line, or as many as a Real has lanes, enters a cylinder or cone
-/// through its side.
-template <class Real>
-struct FrustumEntry {
-  using Mask = MaskOf<Real>;
-
-  Mask rejected{};  ///< the line is nowhere inside
-  Mask known{};     ///< the line enters there; with neither mask set it is undecided
-  Real t{};
-  Real error{};  ///< as in Crossing
-};
-
 /// A FrustumShape is a cylinder or a cone. Faces: 0 is the side, 1 the cap at `from`, 2 the cap at
 /// `to` (there is none at an apex). On the side u is the angle about the axis from -> to, from +z
 /// (as frame_about() has it), and v is the height from `from`. On the caps u is the same angle, and
 /// v is the distance from the axis. All are in [0, 1].
-class FrustumShape : public ShapeOfPoints<FrustumShape> {
+class FrustumShape : public ShapeOfSpans<FrustumShape> {
  public:
   FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
 
   bool is_solid() const final { return true; }
-  TypedShape typed() const final { return this; }
-  EnclosedSolid enclosed() const final;
+  std::unique_ptr<const PlacedSolid> placed(const Placement& placement) const final;
   Bounds bounds() const final;
   std::optional<CoreSegment> core_segment() const final {
     return CoreSegment{from_, to_, radii_[0], radii_[1]};
   }
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;
-  /// Finds the first crossing of rays that start on none of the faces' surfaces, where it is
-  /// plainly on the side. A ray is an ObjectRay or a PlainRay, or as many side by side.
   template <class Real, class Ray>
-  FrustumEntry<Real> first_entry(const Ray& ray) const;
+  void write_span(const Ray& ray, const WantedEnds<Real>& wanted, ShapeSpan<Real>& span) const;
   /// Finds where a line crosses the whole surface of a cylinder's side, which it is known to do.
   /// Within `span` both crossings are those of crossings(), to the last bit.
   std::array<Crossing, 2> side_crossings(const ObjectRay& ray, ClippedSpan span) const;
@@ -269,5 +254,6 @@ RealOf<Vector> FrustumShape::distance_from_side(const Vector& p) const {
 
 // Cylinders and cones are instantiated where the definition is not visible.
 extern template class ShapeOfPoints<FrustumShape>;
+extern template class ShapeOfSpans<FrustumShape>;
 
 }  // namespace crt::core

@@ -17,7 +17,6 @@ class HalfPlaneShape final : public ShapeOfPoints<HalfPlaneShape> {
 
   bool is_solid() const override { return false; }
   Bounds bounds() const override;
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return face_.position(); }
   template <class Real>

@@ -23,7 +23,6 @@ class HeightFieldShape final : public ShapeOfPoints<HeightFieldShape> {
   bool is_solid() const override { return true; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override { return facets_.bounds(); }
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t face) const override { return facets_.triangle(face).a; }
   template <class Real>

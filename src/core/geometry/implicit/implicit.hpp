@@ -28,7 +28,6 @@ class ImplicitShape final : public ShapeOfSinglePoints {
   bool is_solid() const override { return true; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override { return box_->bounds(); }
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return box_->anchor(0); }
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,

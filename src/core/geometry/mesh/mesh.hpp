@@ -27,7 +27,6 @@ class MeshShape final : public Shape {
   bool is_solid() const override { return triangles_->is_closed(); }
   bool is_convex() const override { return false; }
   Bounds bounds() const override { return triangles_->bounds(); }
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t face) const override { return triangles_->triangle(face).a; }
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 
+#include "core/geometry/bounds.hpp"
 #include "core/ray/enclosure.hpp"
 
 namespace crt::core {
@@ -21,6 +25,16 @@ struct EnclosedPlane {
     const std::optional<Vec3> place = placement.exactly_to_world(position);
     if (!place) return {};
     return EnclosedPlane{*place, normal};
+  }
+
+  /// Returns whether the plane surely passes by a box.
+  bool passes_by(const Bounds& box) const {
+    const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;
+    const Vec3 steepness = glm::abs(normal);
+    constexpr double roundings = 0x1p-40;
+    const double reach = glm::dot(steepness, box.upper - middle) +
+                         roundings * glm::dot(steepness, glm::abs(middle) + glm::abs(position));
+    return std::abs(glm::dot(normal, middle - position)) > reach;
   }
 
   /// Returns how fast a line goes up, at a length of the normal of about 1.

@@ -31,6 +31,19 @@ bool PlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return meeting.rate > 0;
 }
 
+/// Lines are solved side by side if the plane is across a coordinate axis.
+template <class Real, class Ray>
+void PlaneShape::write_span(const Ray& ray, const WantedEnds<Real>& /*wanted*/,
+                            ShapeSpan<Real>& span) const {
+  const int axis = face_.axis();
+  if (axis < 0) return;
+  const auto meeting = face_.template meet_across_axis<Real>(ray);
+  const auto enters =
+      face_.normal()[axis] > 0 ? ray.direction[axis] < 0.0 : ray.direction[axis] > 0.0;
+  span.enter = {.known = meeting.found && enters, .t = meeting.t, .error = meeting.error};
+  span.leave = {.known = meeting.found && !enters, .t = meeting.t, .error = meeting.error};
+}
+
 template <class Real>
 void PlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
                              bool with_uv, SurfacePointOf<Real>& point) const {

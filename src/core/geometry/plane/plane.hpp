@@ -6,22 +6,24 @@
 // Tests: tests/geometry/plane_test.cpp
 #pragma once
 
+#include "core/geometry/plane/enclose.hpp"
 #include "core/geometry/plane_face.hpp"
 #include "core/geometry/shape.hpp"
 
 namespace crt::core {
 
-class PlaneShape final : public ShapeOfPoints<PlaneShape> {
+class PlaneShape final : public ShapeOfSpans<PlaneShape> {
  public:
   explicit PlaneShape(const Plane& plane);
 
   bool is_solid() const override { return true; }
-  TypedShape typed() const override { return this; }
-  EnclosedSolid enclosed() const override {
-    return EnclosedPlane{face_.position(), face_.normal()};
+  std::unique_ptr<const PlacedSolid> placed(const Placement& placement) const override {
+    return place(EnclosedPlane{face_.position(), face_.normal()}, placement);
   }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  template <class Real, class Ray>
+  void write_span(const Ray& ray, const WantedEnds<Real>& wanted, ShapeSpan<Real>& span) const;
   Vec3 anchor(std::uint32_t) const override { return face_.position(); }
   template <class Real>
   void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,

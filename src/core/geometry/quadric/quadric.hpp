@@ -21,7 +21,6 @@ class QuadricShape final : public ShapeOfPoints<QuadricShape> {
   bool is_solid() const override { return true; }
   bool is_convex() const override { return extent_.is_convex; }
   Bounds bounds() const override { return extent_.bounds; }
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return Vec3(0); }
   template <class Real>

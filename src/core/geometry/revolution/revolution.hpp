@@ -25,7 +25,6 @@ class RevolutionShape final : public Shape {
   bool is_solid() const override { return true; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override { return bounds_; }
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t face) const override { return body(face).anchor(0); }
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,

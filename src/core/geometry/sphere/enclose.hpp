@@ -1,4 +1,4 @@
-// Where lines are within a sphere, surely: for one line, for lanes of doubles, for lanes of floats.
+// Where lines are within a sphere, surely.
 //
 // Let w be the offset from a line's origin to the center. The line is closest to the center at
 // c = w . d / d^2, at a distance of q, and half its chord is h with h^2 d^2 = r^2 - q^2.
@@ -45,7 +45,7 @@ Enclosure<Real> enclosed_chord(const ClosestApproach<Real>& approach,
                                const Real& inverse_squared_length, const Error& margin_error,
                                const Real& t_error) {
   const Real outer = sqrt(max(approach.margin, Real{}) * inverse_squared_length);
-  const Real less = 2.0F * margin_error * inverse_squared_length * inverse_or_more(outer);
+  const Real less = 2.0 * margin_error * inverse_squared_length * inverse_or_more(outer);
   const Real inner = outer - less;
   return {.enter_from = approach.t - outer - t_error,
           .enter_to = approach.t - inner + t_error,
@@ -53,29 +53,41 @@ Enclosure<Real> enclosed_chord(const ClosestApproach<Real>& approach,
           .leave_to = approach.t + outer + t_error};
 }
 
-/// A sphere as doubles have it to the last bit.
+/// A sphere as doubles have it.
 struct EnclosedSphere {
   Vec3 center{0, 0, 0};
   double radius = 0;
+  double off = 0;  ///< its center and its radius together may be off by so much
 
-  /// Returns it where a placement puts it, or nothing if no doubles are exactly there or it is of
-  /// no fair size.
+  /// Returns it where a placement puts it, or nothing if it is of no fair size there or is
+  /// distorted.
   template <class Placement>
   std::optional<EnclosedSphere> placed(const Placement& placement) const {
-    const std::optional<Vec3> place = placement.exactly_to_world(center);
-    if (!place || !has_fair_size(radius)) return {};
-    return EnclosedSphere{*place, radius};
+    EnclosedSphere result = *this;
+    if (const std::optional<Vec3> place = placement.exactly_to_world(center)) {
+      result.center = *place;
+    } else {
+      const double scale = placement.even_scale();
+      if (!(scale > 0)) return {};
+      result.center = placement.point_to_world(center);
+      result.radius *= scale;
+      // A map that scales evenly does so but for 2^-40 of each length.
+      result.off = 0x1p-36 * result.radius + 0x1p-50 * largest_component(result.center);
+    }
+    if (!has_fair_size(result.radius)) return {};
+    return result;
   }
 
   /// Returns M for lines at such offsets. Roundings change h^2 d^2 by less than 32 u (w^2 + r^2),
   /// with u = 2^-53. The bound on the error of an exact test's t, e, is 16 u r^2 / (d^2 h) at most
   /// and never more than sqrt(2 h e) (standard_error(), grazing_error()): so (h + e)^2 and (h - e)
-  /// H are off from h^2 and H^2 by less than a quarter of this. The last term is for a start that
-  /// rounding has put off a surface.
+  /// H are off from h^2 and H^2 by less than a quarter of this. The second term is for a start that
+  /// rounding has put off a surface. A sphere that is off changes h^2 d^2 by less than (4 r + 2
+  /// off) off where a line comes within r + off of its center.
   template <class Real>
   Real margin_error(const FilterLine<Real>& line, const Real& squared_offset) const {
     return enclosing_slack * (squared_offset + radius * radius) +
-           (starts_off * radius) * line.start_error;
+           (starts_off * radius) * line.start_error + 4 * (4 * radius + 2 * off) * off;
   }
 };
 
@@ -90,7 +102,8 @@ bool enclose(const EnclosedSphere& sphere, const FilterLine<Real>& line, const M
       offset, line.direction, line.inverse_squared_length, sphere.radius, margin_error);
   const MaskOf<Real> misses = approach.margin < 0.0;
   if (!any(asked && !misses)) return false;
-  const Real t_error = enclosing_slack * (abs(approach.t) + sphere.radius * line.inverse_length);
+  const Real t_error = enclosing_slack * (abs(approach.t) + sphere.radius * line.inverse_length) +
+                       sphere.off * line.inverse_length;
   part = enclosed_chord(approach, line.inverse_squared_length, margin_error, t_error);
   if (any(misses)) part.set_outside(misses);
   return true;

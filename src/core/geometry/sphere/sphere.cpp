@@ -19,13 +19,32 @@ Bounds SphereShape::bounds() const {
 
 bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (ray.start.face == 0) return crossings_from_surface(ray, out);
-  const auto chord = this->chord<double>(ray);
+  const auto chord = SphereChord<double>::of(ray, center_, radius_, unit_);
   if (!chord.found) return false;
   const double enter = chord.enter;
   const double leave = chord.leave;
   out.push_back({.t = enter, .error = chord.error_of(enter), .root = 0, .entering = true});
   out.push_back({.t = leave, .error = chord.error_of(leave), .root = 1, .entering = false});
   return false;
+}
+
+template <class Real, class Ray>
+void SphereShape::write_span(const Ray& ray, const WantedEnds<Real>& /*wanted*/,
+                             ShapeSpan<Real>& span) const {
+  const auto chord = SphereChord<Real>::of(ray, center_, radius_, unit_);
+  span.misses = !chord.found;
+  span.enter = {.known = chord.found, .t = chord.enter, .error = chord.error_of(chord.enter)};
+  span.leave = {.known = chord.found, .t = chord.leave, .error = chord.error_of(chord.leave)};
+  span.leave_root = 1;
+}
+
+void SphereShape::exit(const PlainRay<double>& line, SpanEnd<double>& end) const {
+  const auto other = SphereOtherEnd<double>::of(line, center_, radius_, unit_);
+  end = {.known = other.t > 0.0, .t = other.t, .error = other.error};
+}
+void SphereShape::exit(const RayLanes& lines, SpanEnd<Lanes>& end) const {
+  const auto other = SphereOtherEnd<Lanes>::of(lines, center_, radius_, unit_);
+  end = {.known = other.t > 0.0, .t = other.t, .error = other.error};
 }
 
 bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out) const {
@@ -67,11 +86,16 @@ void SphereShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& di
                            with_uv, point);
 }
 
-void SphereShape::points_on_each(const std::array<const SphereShape*, lane_count>& spheres,
+const void* SphereShape::family() const {
+  static constexpr char spheres = 0;
+  return &spheres;
+}
+
+void SphereShape::points_on_each(const std::array<const Shape*, lane_count>& spheres,
                                  const RayLanes& rays, const Lanes& t, bool with_uv,
-                                 SurfacePointLanes& points) {
+                                 SurfacePointLanes& points) const {
   const auto row = [&](std::size_t lane) {
-    const SphereShape& sphere = *spheres[lane];
+    const auto& sphere = static_cast<const SphereShape&>(*spheres[lane]);
     return lanes_of(sphere.center_.x, sphere.center_.y, sphere.center_.z, sphere.radius_);
   };
   const auto [x, y, z, radius] = transposed({row(0), row(1), row(2), row(3)});

@@ -14,6 +14,7 @@
 
 #include "core/geometry/near_line.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/geometry/sphere/enclose.hpp"
 #include "core/ray/plain_ray.hpp"
 
 namespace crt::core {
@@ -102,30 +103,30 @@ SphereOtherEnd<Real> SphereOtherEnd<Real>::of(const Ray& ray, const Vec3& center
   return end;
 }
 
-class SphereShape final : public ShapeOfPoints<SphereShape> {
+class SphereShape final : public ShapeOfSpans<SphereShape> {
  public:
   explicit SphereShape(const Sphere& sphere);
 
   bool is_solid() const override { return true; }
-  TypedShape typed() const override { return this; }
-  EnclosedSolid enclosed() const override { return EnclosedSphere{center_, radius_}; }
-  Bounds bounds() const override;
-  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  /// Finds the chord of rays that do not start on the surface. A ray is an ObjectRay, or as many
-  /// side by side.
-  template <class Real, class Ray>
-  SphereChord<Real> chord(const Ray& ray) const {
-    return SphereChord<Real>::of(ray, center_, radius_, unit_);
+  std::unique_ptr<const PlacedSolid> placed(const Placement& placement) const override {
+    return place(EnclosedSphere{center_, radius_}, placement);
   }
+  Bounds bounds() const override;
+  std::optional<BoundingSphere> bounding_sphere() const override {
+    return BoundingSphere{center_, radius_};
+  }
+  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  template <class Real, class Ray>
+  void write_span(const Ray& ray, const WantedEnds<Real>& wanted, ShapeSpan<Real>& span) const;
+  void exit(const PlainRay<double>& line, SpanEnd<double>& end) const override;
+  void exit(const RayLanes& lines, SpanEnd<Lanes>& end) const override;
   Vec3 anchor(std::uint32_t) const override { return center_; }
   template <class Real>
   void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,
                    bool with_uv, SurfacePointOf<Real>& point) const;
-  /// Computes points_on() for rays that each cross a sphere of their own, to the last bit. t is by
-  /// ray.
-  static void points_on_each(const std::array<const SphereShape*, lane_count>& spheres,
-                             const RayLanes& rays, const Lanes& t, bool with_uv,
-                             SurfacePointLanes& points);
+  const void* family() const override;
+  void points_on_each(const std::array<const Shape*, lane_count>& spheres, const RayLanes& rays,
+                      const Lanes& t, bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   std::size_t bytes() const override { return sizeof *this; }

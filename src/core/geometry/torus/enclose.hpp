@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
+#include "core/math/vector.hpp"
 #include "core/ray/enclosure.hpp"
 
 namespace crt::core {
@@ -16,6 +18,29 @@ struct EnclosedTorus {
   Vec3 axis{0, 0, 0};  ///< unit length
   double ring = 0;     ///< the radius of the circle in the middle of the tube
   double tube = 0;     ///< the tube's radius, with what is added to it
+
+  /// Returns it where a placement puts it, thicker by more than all roundings, or nothing if that
+  /// cannot be done.
+  template <class Placement>
+  std::optional<EnclosedTorus> placed(const Placement& placement) const {
+    const double scale = placement.even_scale();
+    const Vec3 place = placement.point_to_world(center);
+    const Vec3 along = placement.point_to_world(center + axis) - place;
+    // Where the place is far larger than the axis the difference has too few digits left.
+    constexpr double most_sizes = 0x1p12;
+    const double in_world = scale * size();
+    if (!(largest_component(place) < most_sizes * in_world) || !(largest_component(along) > 0) ||
+        !(largest_component(place) < most_sizes * largest_component(along))) {
+      return {};
+    }
+    constexpr double roundings = 0x1p-30;
+    const EnclosedTorus result{.center = place,
+                               .axis = unit_vector(along),
+                               .ring = scale * ring,
+                               .tube = scale * tube + roundings * in_world};
+    if (!has_fair_size(result.tube) || !has_fair_size(result.ring)) return {};
+    return result;
+  }
 
   double size() const { return ring + tube; }
 

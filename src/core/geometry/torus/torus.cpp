@@ -68,23 +68,25 @@ TorusEntry<Real> TorusShape::first_entry(const NearLineOf<Real>& line,
   return result;
 }
 
+/// Finds where lines first enter the torus. Where they leave it depends on their other crossings.
 template <class Real, class Ray>
-TorusEntry<Real> TorusShape::first_entry(const Ray& ray,
-                                         const typename TorusEntry<Real>::Mask& wanted) const {
+void TorusShape::write_span(const Ray& ray, const WantedEnds<Real>& wanted,
+                            ShapeSpan<Real>& span) const {
+  if (!any(wanted.enter)) return;
   const auto line = NearLineOf<Real>::at_closest(ray, center_, unit_);
-  return first_entry<Real>(line, in_frame<Real>(line, false), wanted);
+  const auto entry = first_entry<Real>(line, in_frame<Real>(line, false), wanted.enter);
+  span.misses = wanted.enter && !entry.found;
+  span.enter = {.known = entry.known, .t = entry.t, .error = entry.error};
 }
-template TorusEntry<double> TorusShape::first_entry(const ObjectRay&, const bool&) const;
-template TorusEntry<Lanes> TorusShape::first_entry(const ObjectRayLanes&, const LaneMask&) const;
 
-template <class Real, class Ray>
-typename TorusEntry<Real>::Mask TorusShape::comes_back(
-    const Ray& ray, const typename TorusEntry<Real>::Mask& wanted) const {
-  const auto line = NearLineOf<Real>::at_origin(ray, center_, unit_);
-  return in_frame<Real>(line, true).comes_back(wanted);
+bool TorusShape::leaves_for_good(const ObjectRay& ray, bool wanted) const {
+  const auto line = NearLine::at_origin(ray, center_, unit_);
+  return !in_frame<double>(line, true).comes_back(wanted);
 }
-template bool TorusShape::comes_back<double>(const ObjectRay&, const bool&) const;
-template LaneMask TorusShape::comes_back<Lanes>(const ObjectRayLanes&, const LaneMask&) const;
+LaneMask TorusShape::leaves_for_good(const ObjectRayLanes& rays, const LaneMask& wanted) const {
+  const auto line = NearLineOf<Lanes>::at_origin(rays, center_, unit_);
+  return !in_frame<Lanes>(line, true).comes_back(wanted);
+}
 
 bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const bool on_surface = ray.start.face == 0;

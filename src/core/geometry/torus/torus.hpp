@@ -28,6 +28,7 @@
 #include "core/geometry/angles.hpp"
 #include "core/geometry/near_line.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/geometry/torus/enclose.hpp"
 #include "core/geometry/torus/line.hpp"
 
 namespace crt::core {
@@ -43,25 +44,21 @@ struct TorusEntry {
   Real error{};  ///< as in Crossing
 };
 
-class TorusShape final : public ShapeOfPoints<TorusShape> {
+class TorusShape final : public ShapeOfSpans<TorusShape> {
  public:
   explicit TorusShape(const Torus& torus);
 
   bool is_solid() const override { return true; }
-  TypedShape typed() const override { return this; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override;
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
+  std::unique_ptr<const PlacedSolid> placed(const Placement& placement) const override {
+    return place(EnclosedTorus{center_, frame_.along, radius_, thickness_}, placement);
+  }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  /// Finds the first crossing of wanted rays that do not start on the surface, where it is known
-  /// without the others. A ray is an ObjectRay, or as many side by side.
   template <class Real, class Ray>
-  TorusEntry<Real> first_entry(const Ray& ray, const typename TorusEntry<Real>::Mask& wanted) const;
-  /// Returns which of the wanted rays may cross the surface again at t > 0. They start on it and
-  /// leave outwards.
-  template <class Real, class Ray>
-  typename TorusEntry<Real>::Mask comes_back(const Ray& ray,
-                                             const typename TorusEntry<Real>::Mask& wanted) const;
+  void write_span(const Ray& ray, const WantedEnds<Real>& wanted, ShapeSpan<Real>& span) const;
+  bool leaves_for_good(const ObjectRay& ray, bool wanted) const override;
+  LaneMask leaves_for_good(const ObjectRayLanes& rays, const LaneMask& wanted) const override;
   Vec3 anchor(std::uint32_t) const override { return center_; }
   template <class Real>
   void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,

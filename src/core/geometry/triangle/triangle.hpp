@@ -26,7 +26,6 @@ class TriangleShape final : public ShapeOfPoints<TriangleShape> {
 
   bool is_solid() const override { return false; }
   Bounds bounds() const override;
-  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return corners_[0]; }
   template <class Real>

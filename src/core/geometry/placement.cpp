@@ -1,4 +1,4 @@
-#include "core/csg/placement.hpp"
+#include "core/geometry/placement.hpp"
 
 #include <algorithm>
 #include <array>

@@ -45,6 +45,10 @@ class Placement {
     return ray;
   }
 
+  ObjectRay to_object(const PlainRay<double>& ray) const {
+    return to_object(ray.origin, ray.direction);
+  }
+
   /// Returns several rays side by side in object space, each of them to the last bit as it is
   /// alone.
   ObjectRayLanes to_object(const RayLanes& rays) const;
