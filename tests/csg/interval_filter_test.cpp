@@ -102,7 +102,7 @@ class Trees {
  private:
   Entity leaf() {
     if (leaves_ == Leaves::all && make_.integer(0, 3) != 0)
-      return make_.integer(0, 3) != 0 ? round_leaf() : other_leaf();
+      return make_.integer(0, 7) != 0 ? round_leaf() : other_leaf();
     const Vec3 a = point();
     if (make_.integer(0, 1) == 0) {
       return Sphere{.center = to_world(a),

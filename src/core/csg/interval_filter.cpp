@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "core/csg/evaluate.hpp"
 #include "core/csg/near_leaves.hpp"
@@ -12,14 +13,11 @@ namespace crt::core {
 
 namespace {
 
-/// Returns what encloses a leaf in the world, by the best that there is.
+/// Returns what encloses a leaf that has no formula.
 std::unique_ptr<const PlacedSolid> enclosed(const Leaf& leaf) {
-  const Shape& shape = *leaf.shape;
-  auto solid = shape.placed(*leaf.placement);
-  if (solid != nullptr) return solid;
   // The exact tier may find a crossing where the standard one does not.
-  return shape.is_convex() && !leaf.exact ? place_by_crossings(shape, *leaf.placement)
-                                          : place_box(shape, *leaf.placement);
+  return leaf.shape->is_convex() && !leaf.exact ? place_by_crossings(*leaf.shape, *leaf.placement)
+                                                : place_box(*leaf.shape, *leaf.placement);
 }
 
 }  // namespace
@@ -27,8 +25,20 @@ std::unique_ptr<const PlacedSolid> enclosed(const Leaf& leaf) {
 IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
                                std::span<const FaceSurface> faces) {
   if (!program.paths.empty()) return;
-  leaves_.reserve(leaves.size());
-  for (const Leaf& leaf : leaves) leaves_.push_back({enclosed(leaf), leaf.complemented});
+  std::vector<EnclosedLeaf> enclosed_leaves;
+  enclosed_leaves.reserve(leaves.size());
+  std::size_t vague = 0;
+  for (const Leaf& leaf : leaves) {
+    auto solid = leaf.shape->placed(*leaf.placement);
+    if (solid == nullptr || !leaf.shape->is_convex()) ++vague;
+    if (solid == nullptr) solid = enclosed(leaf);
+    enclosed_leaves.push_back({std::move(solid), leaf.complemented});
+  }
+  // What is enclosed vaguely, or at the cost of solving for it, rarely leaves one crossing to be
+  // solved. So a filter pays where rays mostly pass such leaves by.
+  constexpr std::size_t leaves_a_vague_one = 8;
+  if (vague * leaves_a_vague_one > leaves.size()) return;
+  leaves_ = std::move(enclosed_leaves);
   first_face_ = leaves.front().first_face;
   end_face_ = leaves.back().first_face + leaves.back().face_count;
   for (std::uint32_t face = first_face_; face < end_face_; ++face) {

@@ -75,7 +75,8 @@ class EnclosedLines;
 class NearLeavesWorkspace;
 class RaySteps;
 
-/// An IntervalFilter is the filter of a program. Deep programs have none.
+/// An IntervalFilter is the filter of a program. Deep programs have none, and those of which more
+/// than an eighth of the leaves are of shapes without a formula for where lines are in them.
 class IntervalFilter {
  public:
   /// Makes an empty filter, which is what other programs have.

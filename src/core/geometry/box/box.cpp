@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/geometry/box/enclose.hpp"
+#include "core/geometry/box/enclose_turned.hpp"
 #include "core/geometry/checks.hpp"
 #include "core/math/vector.hpp"
 
@@ -23,6 +23,15 @@ std::optional<CoreSegment> BoxShape::core_segment() const {
   across[along] = 0;
   const double reach = glm::length(across);
   return CoreSegment{lower_ + across, upper_ - across, reach, reach};
+}
+
+std::unique_ptr<const PlacedSolid> BoxShape::placed(const Placement& placement) const {
+  const EnclosedBox box{lower_, upper_};
+  auto solid = place(box, placement);
+  if (solid != nullptr) return solid;
+  const std::optional<EnclosedTurnedBox> turned = EnclosedTurnedBox::of(box, placement);
+  if (!turned) return nullptr;
+  return std::make_unique<const PlacedSolidOf<EnclosedTurnedBox>>(*turned);
 }
 
 bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {
@@ -133,9 +142,8 @@ void BoxShape::write_span(const FilterLine<Real>& line, const WantedEnds<Real>& 
   span.misses = part.enter_from > part.leave_to;
   // Mostly each line has one end at most that is asked for.
   span.enter = end_in_box(box, meetings, line, wanted.enter);
-  span.leave = any(wanted.enter && wanted.leave)
-                   ? end_in_box(box, meetings, line, MaskOf<Real>{})
-                   : span.enter;
+  span.leave = any(wanted.enter && wanted.leave) ? end_in_box(box, meetings, line, MaskOf<Real>{})
+                                                 : span.enter;
   span.enter.known = span.enter.known && wanted.enter && passes;
   span.leave.known = span.leave.known && wanted.leave && passes;
 }

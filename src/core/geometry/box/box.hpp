@@ -21,9 +21,7 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   explicit BoxShape(const Box& box);
 
   bool is_solid() const override { return true; }
-  std::unique_ptr<const PlacedSolid> placed(const Placement& placement) const override {
-    return place(EnclosedBox{lower_, upper_}, placement);
-  }
+  std::unique_ptr<const PlacedSolid> placed(const Placement& placement) const override;
   bool finds_spans(const Placement& placement) const override { return placement.is_identity(); }
   void span(const FilterLine<double>& line, const WantedEnds<double>& wanted,
             const FaceStarts<double>* starts, ShapeSpan<double>& span) const override {

@@ -14,17 +14,22 @@
 
 namespace crt::core {
 
-/// A plane as doubles have it to the last bit.
+/// A plane as doubles have it.
 struct EnclosedPlane {
   Vec3 position{0, 0, 0};
   Vec3 normal{0, 0, 0};  ///< its largest component is about 1
+  double off = 0;        ///< its position may be off by so much
 
-  /// Returns it where a placement puts it, or nothing if no doubles are exactly there.
+  /// Returns it where a placement puts it, or nothing if that may distort it.
   template <class Placement>
   std::optional<EnclosedPlane> placed(const Placement& placement) const {
-    const std::optional<Vec3> place = placement.exactly_to_world(position);
-    if (!place) return {};
-    return EnclosedPlane{*place, normal};
+    if (const std::optional<Vec3> place = placement.exactly_to_world(position))
+      return EnclosedPlane{*place, normal};
+    if (!(placement.even_scale() > 0)) return {};
+    const Vec3 place = placement.point_to_world(position);
+    return EnclosedPlane{.position = place,
+                         .normal = scaled_to_one(placement.covector_to_world(normal)),
+                         .off = 0x1p-46 * largest_component(place)};
   }
 
   /// Returns whether the plane surely passes by a box.
@@ -33,7 +38,8 @@ struct EnclosedPlane {
     const Vec3 steepness = glm::abs(normal);
     constexpr double roundings = 0x1p-40;
     const double reach = glm::dot(steepness, box.upper - middle) +
-                         roundings * glm::dot(steepness, glm::abs(middle) + glm::abs(position));
+                         roundings * glm::dot(steepness, glm::abs(middle) + glm::abs(position)) +
+                         glm::dot(steepness, Vec3(off));
     return std::abs(glm::dot(normal, middle - position)) > reach;
   }
 
@@ -65,8 +71,9 @@ template <class Real>
   const Real rate = along_normal(line.direction);
   const Real t = along_normal(offset) / rate;
   const Real speed = sum_of_sizes(line.direction);
-  const Real error =
-      (normal_size * enclosing_slack) * (sum_of_sizes(offset) + abs(t) * speed) / abs(rate);
+  const Real error = normal_size *
+                     (enclosing_slack * (sum_of_sizes(offset) + abs(t) * speed) + plane.off) /
+                     abs(rate);
   const Real nothing_known = broadcast<Real>(std::numeric_limits<double>::quiet_NaN());
   const MaskOf<Real> known = abs(rate) > flattest * speed;
   return {select(known, t - error, nothing_known), select(known, t + error, nothing_known)};
