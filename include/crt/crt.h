@@ -870,9 +870,9 @@ CRT_API void crt_affine_translation(const double by[3], double out[12]);
 CRT_API void crt_affine_scaling(const double by[3], double out[12]);
 /**
  * Writes the rotation about an axis through the origin, of any length but 0, by an angle in
- * radians. It is left-handed, as crt::rotate in C++ and `rotate` in scripts: a positive angle turns
- * x to y about z, y to z about x, and z to x about y, which is counter-clockwise for one who looks
- * along the axis. Quarter turns are exact where the axis is x, y or z. Since 1.1.
+ * radians. It is left-handed, as crt::rotate_degrees in C++ and `rotate` in scripts: a positive
+ * angle turns x to y about z, y to z about x, and z to x about y, which is counter-clockwise for
+ * one who looks along the axis. Quarter turns are exact where the axis is x, y or z. Since 1.1.
  */
 CRT_API crt_status crt_affine_rotation(const double axis[3], double angle, double out[12]);
 /**

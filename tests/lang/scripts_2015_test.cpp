@@ -269,7 +269,7 @@ TEST_CASE("the samples of a grid of 2015 lie at i / n - 1/2, across and down") {
   Scene scene = scene_of("grid.crt");
   const crt::Entity on_the_left = scene.entities[0];
   for (const Vec3& turn : {Vec3(0), Vec3(0, 0, -90)}) {
-    scene.entities[0] = on_the_left.transformed(crt::rotate(turn));
+    scene.entities[0] = on_the_left.transformed(crt::rotate_degrees(turn));
     scene.settings.compat = 2015;
     CHECK(pixel_of(scene).r == 0.75);
     scene.settings.compat = 0;

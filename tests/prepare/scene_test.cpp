@@ -161,7 +161,7 @@ TEST_CASE("a transformed ray meets a transformed entity where the plain ones mee
     const Transform steps[] = {
         scale(Vec3(make.real(0.3, 3), make.real(0.3, 3),
                    round % 2 == 0 ? make.real(0.3, 3) : -make.real(0.3, 3))),
-        rotate({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)}),
+        rotate_degrees({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)}),
         translate({make.real(-5, 5), make.real(-5, 5), make.real(-5, 5)})};
     std::vector<Entity> moved;
     for (Entity entity : one_of_each(1)) {

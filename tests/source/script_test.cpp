@@ -276,7 +276,7 @@ TEST_CASE("what scripts of 2015 lack is refused in a scene of theirs") {
 TEST_CASE("entities with ids, materials and without a point keep their places") {
   Scene scene;
   scene.entities = {empty_entity(), Entity(Sphere{}).with_id(9).with_material(Material{}),
-                    Entity(Box{}).transformed(rotate({10, 20, 30}))};
+                    Entity(Box{}).transformed(rotate_degrees({10, 20, 30}))};
   const Scene read = again(scene);
   REQUIRE(read.entities.size() == 3);
   CHECK(read.entities[0].is_empty());
