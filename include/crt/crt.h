@@ -344,6 +344,9 @@ typedef struct crt_camera {
   double focal_distance;  /**< along the view direction to what is in focus, > 0; default 1 */
   int32_t aperture_shape; /**< a crt_aperture_shape; default CRT_APERTURE_CIRCLE */
   int32_t reserved;       /**< 0 */
+  /** Is the radius of the lens in scene units, instead of `aperture`: one of the two must be 0.
+   * Default 0. Since 1.1. */
+  double lens_radius;
 } crt_camera;
 
 /** Lists the kinds of backgrounds. */

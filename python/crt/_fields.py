@@ -92,6 +92,11 @@ FIELDS = {
         ("double focal_distance", "along the view direction to what is in focus, > 0; default 1"),
         ("int32_t aperture_shape", "a ApertureShape; default ApertureShape.CIRCLE"),
         ("int32_t reserved", "0"),
+        (
+            "double lens_radius",
+            "Is the radius of the lens in scene units, instead of `aperture`: one of the two "
+            "must be 0. Default 0. Since 1.1.",
+        ),
     ),
     "crt_background": (
         ("int32_t type", "a BackgroundType; default BackgroundType.SOLID"),

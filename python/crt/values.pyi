@@ -516,6 +516,8 @@ class Camera(_Struct):
     - aperture (float): radius of the lens in thousandths of a scene unit; 0 (default): all is sharp
     - focal_distance (float): along the view direction to what is in focus, > 0; default 1
     - aperture_shape (ApertureShape, or its name): a ApertureShape; default ApertureShape.CIRCLE
+    - lens_radius (float): Is the radius of the lens in scene units, instead of `aperture`: one of
+      the two must be 0. Default 0. Since 1.1.
     """
     projection: Projection | int | ProjectionName
     position: Vector
@@ -525,6 +527,7 @@ class Camera(_Struct):
     aperture: float
     focal_distance: float
     aperture_shape: ApertureShape | int | ApertureShapeName
+    lens_radius: float
     def __init__(
         self,
         *,
@@ -536,6 +539,7 @@ class Camera(_Struct):
         aperture: SupportsFloat = ...,
         focal_distance: SupportsFloat = ...,
         aperture_shape: ApertureShape | int | ApertureShapeName = ...,
+        lens_radius: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
@@ -548,6 +552,7 @@ class Camera(_Struct):
         aperture: SupportsFloat = ...,
         focal_distance: SupportsFloat = ...,
         aperture_shape: ApertureShape | int | ApertureShapeName = ...,
+        lens_radius: SupportsFloat = ...,
     ) -> None: ...
 
 BackgroundTypeName = Literal["solid", "gradient", "spherical", "cylindrical", "equal_area"]

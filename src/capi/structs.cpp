@@ -101,7 +101,7 @@ std::span<const std::size_t> field_ends<crt_camera>() {
                                       CRT_END(S, pointing),       CRT_END(S, fov),
                                       CRT_END(S, roll),           CRT_END(S, aperture),
                                       CRT_END(S, focal_distance), CRT_END(S, aperture_shape),
-                                      CRT_END(S, reserved)};
+                                      CRT_END(S, reserved),       CRT_END(S, lens_radius)};
   return ends;
 }
 

@@ -229,7 +229,11 @@ std::string camera_value(Program& program, const Camera& camera) {
   add_angle(fields, program, "roll", camera.roll, usual.roll);
   if (!program.syntax().is_script()) add_projection(fields, camera);
   // Cameras of 2015 have other defaults.
-  fields.add("aperture", "aperture", camera.aperture, fields.required(usual.aperture));
+  if (camera.lens_radius > 0) {
+    fields.add("lens_radius", "lens_radius", camera.lens_radius, usual.lens_radius);
+  } else {
+    fields.add("aperture", "aperture", camera.aperture, fields.required(usual.aperture));
+  }
   fields.add("focal_distance", "focal_distance", camera.focal_distance,
              fields.required(usual.focal_distance));
   fields.add_enum("aperture_shape", "aperture_shape", "ApertureShape", "CRT_APERTURE",
