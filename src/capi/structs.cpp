@@ -362,7 +362,8 @@ crt_status crt_background_init(crt_background* background, size_t struct_size) {
 }
 
 crt_status crt_settings_init(crt_settings* settings, size_t struct_size) {
-  return guarded([&] { initialise(settings, struct_size, defaults<crt_settings>()); });
+  return guarded(
+      [&] { initialise(settings, struct_size, defaults_of_size<crt_settings>(struct_size)); });
 }
 
 crt_status crt_script_options_init(crt_script_options* options, size_t struct_size) {
