@@ -42,6 +42,6 @@ inline crt::Scene tee_scene() {
                   crt::PointLight{.origin = camera, .color = crt::Color{0.35, 0.38, 0.45}}};
   scene.camera = {.position = camera, .pointing = {0, 0.05, 0}, .fov = 0.5};
   scene.background = crt::GradientBackground{.horizon = {0.8, 0.84, 0.88}, .sky = {0.1, 0.2, 0.4}};
-  scene.settings = {.width = 480, .height = 360, .gamma = 2.2, .supersampling = 3};
+  scene.settings = {.width = 480, .height = 360, .supersampling = 3};
   return scene;
 }
