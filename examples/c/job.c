@@ -9,7 +9,7 @@
 
 static const char marbles[] =
     "Settings {\n"
-    "  width -> 480 height -> 320 gamma -> 2.2 supersampling -> 2 recursiondepth -> 8\n"
+    "  width -> 480 height -> 320 supersampling -> 2 recursiondepth -> 8\n"
     "  camera -> Camera { position -> vec3(0, 3.2, -6) pointing -> vec3(0, 0.3, 0) fov -> 36 }\n"
     "  lights -> [\n"
     "    ParallelLight { from -> vec3(-3, 5, 2) pointing -> vec3(0, 0, 0) color -> rgb(0.9, 0.9, "

@@ -95,7 +95,6 @@ static int set_the_stage(crt_scene* scene) {
   settings.width = 640;
   settings.height = 480;
   settings.supersampling = 2;
-  settings.gamma = 2.2;
   return crt_scene_add_light(scene, &sun) || crt_scene_add_light(scene, &lamp) ||
          crt_scene_set_camera(scene, &camera) || crt_scene_set_background(scene, &background) ||
          crt_scene_set_settings(scene, &settings);

@@ -17,11 +17,7 @@ int main() try {
   scene.lights = {crt::PointLight{.origin = {3, 5, -4}, .ambient = 0.05}};
   scene.camera = {.position = {1.8, 2.2, -5}, .pointing = {0, 1.1, 0}, .fov = 0.6};
   scene.background = crt::GradientBackground{};
-  scene.settings = {.width = 480,
-                    .height = 360,
-                    .gamma = 2.2,
-                    .supersampling = 3,
-                    .ambient_model = crt::AmbientModel::surface};
+  scene.settings = {.width = 480, .height = 360, .supersampling = 3};
 
   crt::render(crt::prepare(scene)).write("hello.png");
 } catch (const crt::Error& error) {

@@ -7,7 +7,7 @@
 inline crt::Entity flange() {
   crt::Entity disc = crt::Cylinder{.from = {1.7, 0, 0}, .to = {2, 0, 0}, .radius = 1.5};
   const crt::Entity hole = crt::Cylinder{.from = {1, 1.25, 0}, .to = {3, 1.25, 0}, .radius = 0.12};
-  for (int i = 0; i < 8; ++i) disc = disc - hole.transformed(crt::rotate({45.0 * i, 0, 0}));
+  for (int i = 0; i < 8; ++i) disc = disc - hole.transformed(crt::rotate_degrees({45.0 * i, 0, 0}));
   return disc;
 }
 
@@ -19,9 +19,9 @@ inline crt::Entity tee() {
   const crt::Entity branch_bore = crt::Cylinder{.from = {0, 0, 0}, .to = {0, 3, 0}, .radius = 0.6};
 
   const crt::Entity right = flange();
-  const crt::Entity left = right.transformed(crt::rotate({0, 180, 0}));
+  const crt::Entity left = right.transformed(crt::rotate_degrees({0, 180, 0}));
   const crt::Entity top =
-      right.transformed(crt::scale({1, 0.85, 0.85})).transformed(crt::rotate({0, 0, 90}));
+      right.transformed(crt::scale({1, 0.85, 0.85})).transformed(crt::rotate_degrees({0, 0, 90}));
 
   const crt::Entity solid = run + branch + right + left + top - run_bore - branch_bore;
   return solid.with_material(crt::Material{.color = crt::Color{0.55, 0.28, 0.10},
@@ -42,6 +42,6 @@ inline crt::Scene tee_scene() {
                   crt::PointLight{.origin = camera, .color = crt::Color{0.35, 0.38, 0.45}}};
   scene.camera = {.position = camera, .pointing = {0, 0.05, 0}, .fov = 0.5};
   scene.background = crt::GradientBackground{.horizon = {0.8, 0.84, 0.88}, .sky = {0.1, 0.2, 0.4}};
-  scene.settings = {.width = 480, .height = 360, .gamma = 2.2, .supersampling = 3};
+  scene.settings = {.width = 480, .height = 360, .supersampling = 3};
   return scene;
 }

@@ -74,7 +74,7 @@ int main() try {
                   crt::PointLight{.origin = {3, 2, -4}, .color = crt::grey(0.4)}};
   scene.camera = {.position = {0, 2.2, -4.5}, .pointing = {0, -0.05, 0}, .fov = 0.55};
   scene.background = crt::GradientBackground{.horizon = {0.8, 0.84, 0.88}, .sky = {0.1, 0.2, 0.4}};
-  scene.settings = {.width = 320, .height = 320, .gamma = 2.2, .supersampling = 3};
+  scene.settings = {.width = 320, .height = 320, .supersampling = 3};
   crt::render(crt::prepare(scene)).write("vase.png");
 } catch (const crt::Error& error) {
   std::cerr << "tutorial_custom: " << error.what() << '\n';

@@ -16,7 +16,8 @@ crt::Image distance_picture(const crt::Image& image) {
   const double farthest = 14;
   const auto distances = image.channel("Z");
   crt::Image result(image.width(), image.height());
-  std::size_t pixel = 0;  // row by row
+  result.set_settings({.gamma = 1});  // the file holds these numbers as they are
+  std::size_t pixel = 0;              // row by row
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x, ++pixel) {
       const double z = distances[pixel];

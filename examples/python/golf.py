@@ -47,8 +47,6 @@ scene = crt.Scene(
         width=400,
         height=400,
         supersampling=2,
-        gamma=2.2,
-        ambient_model=crt.AmbientModel.SURFACE,
         title="Tee",
     ),
 )

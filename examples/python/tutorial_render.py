@@ -26,7 +26,7 @@ def normal_picture(image: crt.Image) -> crt.Image:
     pixels = np.ones((image.height, image.width, 4), np.float32)
     for color, (axis, sign) in enumerate((("N.X", 1), ("N.Y", 1), ("N.Z", -1))):
         pixels[:, :, color] = 0.5 + 0.5 * sign * image.channels[axis]
-    return crt.Image.from_pixels(pixels)
+    return crt.Image.from_pixels(pixels).with_settings(crt.Settings(gamma=1))
 
 
 if __name__ == "__main__":

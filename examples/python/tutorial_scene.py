@@ -34,7 +34,7 @@ def bracket_scene() -> crt.Scene:
         ],
         camera=crt.Camera(position=camera, pointing=(0, 0.95, 0), fov=math.radians(32)),
         background=crt.Background.gradient(horizon=(0.8, 0.84, 0.88), sky=(0.1, 0.2, 0.4)),
-        settings=crt.Settings(width=480, height=360, supersampling=3, gamma=2.2),
+        settings=crt.Settings(width=480, height=360, supersampling=3),
     )
 
 

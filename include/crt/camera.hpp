@@ -41,6 +41,9 @@ struct Camera {
   /// This is the radius of the lens in thousandths of a scene unit (>= 0). 0 is a pinhole: all is
   /// sharp.
   double aperture = 0;
+  /// This is the radius of the lens in scene units (>= 0), instead of `aperture`: one of the two
+  /// must be 0. With compat_2015, too, it is the radius in all directions.
+  double lens_radius = 0;
   /// This is the distance along the view direction to the plane that is in focus (> 0). Spherical
   /// and cylindrical cameras see all around, and are in focus at this distance along each ray. For
   /// an orthographic camera it is also where the image plane has the size that `fov` gives it. Its
@@ -48,5 +51,10 @@ struct Camera {
   double focal_distance = 1;
   ApertureShape aperture_shape = ApertureShape::circle;
 };
+
+/// Says whether the camera has a lens of any size. It takes Settings::dof_samples to show.
+inline bool has_lens(const Camera& camera) {
+  return camera.aperture > 0 || camera.lens_radius > 0;
+}
 
 }  // namespace crt

@@ -344,6 +344,9 @@ typedef struct crt_camera {
   double focal_distance;  /**< along the view direction to what is in focus, > 0; default 1 */
   int32_t aperture_shape; /**< a crt_aperture_shape; default CRT_APERTURE_CIRCLE */
   int32_t reserved;       /**< 0 */
+  /** Is the radius of the lens in scene units, instead of `aperture`: one of the two must be 0.
+   * Default 0. Since 1.1. */
+  double lens_radius;
 } crt_camera;
 
 /** Lists the kinds of backgrounds. */
@@ -405,10 +408,10 @@ typedef struct crt_settings {
   int32_t
       dof_samples; /**< points of the lens for each of them, in [1, 65536]; default 1: no lens */
   int32_t recursion_depth; /**< bounces after the camera's ray, in [0, 256]; default 3 */
-  double gamma;            /**< 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1 */
+  double gamma;            /**< 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 2.2 */
   double min_weight;       /**< rays with a smaller share of the pixel in every channel are dropped;
                               default 1/1024 */
-  int32_t falloff_model;   /**< a crt_falloff_model; default CRT_FALLOFF_PATH */
+  int32_t falloff_model;   /**< a crt_falloff_model; default CRT_FALLOFF_LIGHT */
   int32_t show_clip; /**< not 0: pixels with a channel above 1 are red in 8-bit files; default 0 */
   uint64_t seed;     /**< of the random numbers; default 0 */
   const char* title; /**< this and the next go into the files; NULL (default) for none */
@@ -430,10 +433,12 @@ typedef struct crt_settings {
   int32_t filter;      /**< a crt_pixel_filter; default CRT_FILTER_BOX */
   int32_t reserved_2;  /**< must be 0 */
   /** 0 is the default. With 2015 the picture is formed as the program of that year formed it: lens,
-   * panoramas, places of the grid's samples, levels of 8-bit files. See docs/compat.md. */
+   * panoramas, places of the grid's samples, levels of 8-bit files. The other settings are left:
+   * those of a script of 2015 are gamma 1, CRT_FALLOFF_PATH and CRT_AMBIENT_LIGHT. See
+   * docs/compat.md. */
   int32_t compat;
   int32_t reserved_3;    /**< must be 0 */
-  int32_t ambient_model; /**< a crt_ambient_model; default CRT_AMBIENT_LIGHT */
+  int32_t ambient_model; /**< a crt_ambient_model; default CRT_AMBIENT_SURFACE */
   /** A scene without lights is lit from the camera, unless this is not 0. Default 0. */
   int32_t no_head_light;
 } crt_settings;
@@ -457,7 +462,11 @@ CRT_API crt_status crt_light_init_type(crt_light* light, size_t struct_size, int
 CRT_API crt_status crt_camera_init(crt_camera* camera, size_t struct_size);
 /** Fills in a white background. */
 CRT_API crt_status crt_background_init(crt_background* background, size_t struct_size);
-/** Fills in the default settings: 640 x 480 pixels, one ray a pixel. */
+/**
+ * Fills in the default settings: 640 x 480 pixels, one ray a pixel, gamma 2.2. A program that was
+ * compiled with the crt.h of 1.0, whose struct is shorter, gets what it was compiled with: gamma 1,
+ * CRT_FALLOFF_PATH and CRT_AMBIENT_LIGHT.
+ */
 CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size);
 
 /** @} */
@@ -870,9 +879,9 @@ CRT_API void crt_affine_translation(const double by[3], double out[12]);
 CRT_API void crt_affine_scaling(const double by[3], double out[12]);
 /**
  * Writes the rotation about an axis through the origin, of any length but 0, by an angle in
- * radians. It is left-handed, as crt::rotate in C++ and `rotate` in scripts: a positive angle turns
- * x to y about z, y to z about x, and z to x about y, which is counter-clockwise for one who looks
- * along the axis. Quarter turns are exact where the axis is x, y or z. Since 1.1.
+ * radians. It is left-handed, as crt::rotate_degrees in C++ and `rotate` in scripts: a positive
+ * angle turns x to y about z, y to z about x, and z to x about y, which is counter-clockwise for
+ * one who looks along the axis. Quarter turns are exact where the axis is x, y or z. Since 1.1.
  */
 CRT_API crt_status crt_affine_rotation(const double axis[3], double angle, double out[12]);
 /**

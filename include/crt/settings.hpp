@@ -46,7 +46,7 @@ struct Settings {
   int width = 640;
   int height = 480;
   /// Files of 8 bits store clamp(c)^(1/gamma). It is in [0.1, 10].
-  double gamma = 1;
+  double gamma = 2.2;
   /// There are n x n rays a pixel, with n in [1, 64]. It has no effect with a target error or a
   /// time budget.
   int supersampling = 1;
@@ -71,8 +71,8 @@ struct Settings {
   int recursion_depth = 3;
   /// A ray whose share of the pixel is below this in every channel is not traced. It is in [0, 1].
   double min_weight = 1.0 / 1024;
-  FalloffModel falloff_model = FalloffModel::path;
-  AmbientModel ambient_model = AmbientModel::light;
+  FalloffModel falloff_model = FalloffModel::light;
+  AmbientModel ambient_model = AmbientModel::surface;
   /// A scene without lights is lit from the camera, so that it shows something. With false it is
   /// black but for mirrors, glass and the background, as it is with compat_2015.
   bool head_light = true;
@@ -83,8 +83,19 @@ struct Settings {
   Precision precision = Precision::standard;
   /// 0 is the default. With compat_2015 the picture is formed as the program of that year formed
   /// it, see docs/compat.md. That concerns the lens, panoramas, the places of the grid's samples
-  /// and the levels of 8-bit files.
+  /// and the levels of 8-bit files. It leaves the other settings: see settings_of_2015().
   int compat = 0;
 };
+
+/// Returns the settings that a script with `compat -> 2015` begins with. Files store light as it is
+/// (gamma 1), and lights fall off and are ambient by the thesis's rules.
+inline Settings settings_of_2015() {
+  Settings settings;
+  settings.gamma = 1;
+  settings.falloff_model = FalloffModel::path;
+  settings.ambient_model = AmbientModel::light;
+  settings.compat = compat_2015;
+  return settings;
+}
 
 }  // namespace crt

@@ -28,6 +28,12 @@ Transform scale(const Vec3& factors);
 
 /// Rotates about x, then y, then z by the given *degrees*, left-handed: +90 about z takes x to y,
 /// about x takes y to z, about y takes z to x. Multiples of 90 degrees are exact.
-Transform rotate(const Vec3& degrees);
+Transform rotate_degrees(const Vec3& degrees);
+
+/// Is the name that rotate_degrees() has in version 1.0.
+[[deprecated("it takes degrees: call rotate_degrees()")]] inline Transform rotate(
+    const Vec3& degrees) {
+  return rotate_degrees(degrees);
+}
 
 }  // namespace crt

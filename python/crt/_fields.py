@@ -92,6 +92,11 @@ FIELDS = {
         ("double focal_distance", "along the view direction to what is in focus, > 0; default 1"),
         ("int32_t aperture_shape", "a ApertureShape; default ApertureShape.CIRCLE"),
         ("int32_t reserved", "0"),
+        (
+            "double lens_radius",
+            "Is the radius of the lens in scene units, instead of `aperture`: one of the two "
+            "must be 0. Default 0. Since 1.1.",
+        ),
     ),
     "crt_background": (
         ("int32_t type", "a BackgroundType; default BackgroundType.SOLID"),
@@ -113,13 +118,13 @@ FIELDS = {
             "points of the lens for each of them, in [1, 65536]; default 1: no lens",
         ),
         ("int32_t recursion_depth", "bounces after the camera's ray, in [0, 256]; default 3"),
-        ("double gamma", "8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1"),
+        ("double gamma", "8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 2.2"),
         (
             "double min_weight",
             "rays with a smaller share of the pixel in every channel are dropped; default "
             "1/1024",
         ),
-        ("int32_t falloff_model", "a FalloffModel; default FalloffModel.PATH"),
+        ("int32_t falloff_model", "a FalloffModel; default FalloffModel.LIGHT"),
         (
             "int32_t show_clip",
             "not 0: pixels with a channel above 1 are red in 8-bit files; default 0",
@@ -158,10 +163,11 @@ FIELDS = {
             "int32_t compat",
             "0 is the default. With 2015 the picture is formed as the program of that year "
             "formed it: lens, panoramas, places of the grid's samples, levels of 8-bit files. "
-            "See docs/compat.md.",
+            "The other settings are left: those of a script of 2015 are gamma 1, "
+            "FalloffModel.PATH and AmbientModel.LIGHT. See docs/compat.md.",
         ),
         ("int32_t reserved_3", "must be 0"),
-        ("int32_t ambient_model", "a AmbientModel; default AmbientModel.LIGHT"),
+        ("int32_t ambient_model", "a AmbientModel; default AmbientModel.SURFACE"),
         (
             "int32_t no_head_light",
             "A scene without lights is lit from the camera, unless this is not 0. Default 0.",

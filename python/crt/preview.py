@@ -49,7 +49,7 @@ def picture_of_entity(entity: Entity) -> Image | None:
     alone.add(Light.parallel(origin=sun, pointing=center, color=(0.9, 0.9, 0.9), ambient=0.15))
     alone.add(Light.parallel(origin=position, pointing=center, color=(0.3, 0.3, 0.3)))
     alone.background = Background(color=(1, 1, 1), alpha=0)
-    alone.settings = Settings(width=320, height=320, supersampling=2, gamma=2.2)
+    alone.settings = Settings(width=320, height=320, supersampling=2)
     return alone.render()
 
 

@@ -516,6 +516,8 @@ class Camera(_Struct):
     - aperture (float): radius of the lens in thousandths of a scene unit; 0 (default): all is sharp
     - focal_distance (float): along the view direction to what is in focus, > 0; default 1
     - aperture_shape (ApertureShape, or its name): a ApertureShape; default ApertureShape.CIRCLE
+    - lens_radius (float): Is the radius of the lens in scene units, instead of `aperture`: one of
+      the two must be 0. Default 0. Since 1.1.
     """
     projection: Projection | int | ProjectionName
     position: Vector
@@ -525,6 +527,7 @@ class Camera(_Struct):
     aperture: float
     focal_distance: float
     aperture_shape: ApertureShape | int | ApertureShapeName
+    lens_radius: float
     def __init__(
         self,
         *,
@@ -536,6 +539,7 @@ class Camera(_Struct):
         aperture: SupportsFloat = ...,
         focal_distance: SupportsFloat = ...,
         aperture_shape: ApertureShape | int | ApertureShapeName = ...,
+        lens_radius: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
@@ -548,6 +552,7 @@ class Camera(_Struct):
         aperture: SupportsFloat = ...,
         focal_distance: SupportsFloat = ...,
         aperture_shape: ApertureShape | int | ApertureShapeName = ...,
+        lens_radius: SupportsFloat = ...,
     ) -> None: ...
 
 BackgroundTypeName = Literal["solid", "gradient", "spherical", "cylindrical", "equal_area"]
@@ -680,10 +685,10 @@ class Settings(_Struct):
     - supersampling (int): n x n rays a pixel, in [1, 64]; default 1
     - dof_samples (int): points of the lens for each of them, in [1, 65536]; default 1: no lens
     - recursion_depth (int): bounces after the camera's ray, in [0, 256]; default 3
-    - gamma (float): 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1
+    - gamma (float): 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 2.2
     - min_weight (float): rays with a smaller share of the pixel in every channel are dropped;
       default 1/1024
-    - falloff_model (FalloffModel, or its name): a FalloffModel; default FalloffModel.PATH
+    - falloff_model (FalloffModel, or its name): a FalloffModel; default FalloffModel.LIGHT
     - show_clip (int): not 0: pixels with a channel above 1 are red in 8-bit files; default 0
     - seed (int): of the random numbers; default 0
     - title (str | None): this and the next go into the files; None (default) for none
@@ -702,9 +707,10 @@ class Settings(_Struct):
     - max_samples (int): of a pixel, also a power of 2 in [4, 65536]; default 1024
     - filter (PixelFilter, or its name): a PixelFilter; default PixelFilter.BOX
     - compat (int): 0 is the default. With 2015 the picture is formed as the program of that year
-      formed it: lens, panoramas, places of the grid's samples, levels of 8-bit files. See
-      docs/compat.md.
-    - ambient_model (AmbientModel, or its name): a AmbientModel; default AmbientModel.LIGHT
+      formed it: lens, panoramas, places of the grid's samples, levels of 8-bit files. The other
+      settings are left: those of a script of 2015 are gamma 1, FalloffModel.PATH and
+      AmbientModel.LIGHT. See docs/compat.md.
+    - ambient_model (AmbientModel, or its name): a AmbientModel; default AmbientModel.SURFACE
     - no_head_light (int): A scene without lights is lit from the camera, unless this is not 0.
       Default 0.
     """

@@ -62,6 +62,15 @@ crt_farm_work_options defaults<crt_farm_work_options>();
 template <>
 crt_farm_merge_options defaults<crt_farm_merge_options>();
 
+/// Returns the defaults that go with a struct of some size. A program keeps those of the version
+/// that it was compiled with, and the size says which that is.
+template <class Struct>
+Struct defaults_of_size(std::size_t) {
+  return defaults<Struct>();
+}
+template <>
+crt_settings defaults_of_size<crt_settings>(std::size_t size);
+
 inline constexpr std::size_t size_field = sizeof(std::uint32_t);
 /// No struct will ever be larger than this. A larger size is a mistake.
 inline constexpr std::size_t largest_struct = 1 << 16;
@@ -95,7 +104,7 @@ std::size_t given_size(const Struct* given, const char* argument) {
 template <class Struct>
 Struct taken(const Struct* given, const char* argument) {
   const std::size_t known = known_size<Struct>(given_size(given, argument));
-  auto result = defaults<Struct>();
+  auto result = defaults_of_size<Struct>(known);
   std::memcpy(&result, given, known);
   return result;
 }

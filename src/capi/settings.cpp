@@ -42,10 +42,19 @@ crt_settings to_c(const Settings& settings) {
 }
 
 template <>
-crt_settings defaults<crt_settings>() {
-  crt_settings out = to_c(Settings{});
+crt_settings defaults_of_size<crt_settings>(std::size_t size) {
+  // In version 1.0, whose struct ends before this field, the defaults were those of 2015.
+  constexpr std::size_t size_in_1_0 = offsetof(crt_settings, precision);
+  Settings settings = size == size_in_1_0 ? settings_of_2015() : Settings{};
+  settings.compat = 0;
+  crt_settings out = to_c(settings);
   out.title = out.author = out.date = out.notes = nullptr;
   return out;
+}
+
+template <>
+crt_settings defaults<crt_settings>() {
+  return defaults_of_size<crt_settings>(sizeof(crt_settings));
 }
 
 static_assert(static_cast<int>(FalloffModel::path) == CRT_FALLOFF_PATH);

@@ -101,7 +101,7 @@ std::span<const std::size_t> field_ends<crt_camera>() {
                                       CRT_END(S, pointing),       CRT_END(S, fov),
                                       CRT_END(S, roll),           CRT_END(S, aperture),
                                       CRT_END(S, focal_distance), CRT_END(S, aperture_shape),
-                                      CRT_END(S, reserved)};
+                                      CRT_END(S, reserved),       CRT_END(S, lens_radius)};
   return ends;
 }
 
@@ -362,7 +362,8 @@ crt_status crt_background_init(crt_background* background, size_t struct_size) {
 }
 
 crt_status crt_settings_init(crt_settings* settings, size_t struct_size) {
-  return guarded([&] { initialise(settings, struct_size, defaults<crt_settings>()); });
+  return guarded(
+      [&] { initialise(settings, struct_size, defaults_of_size<crt_settings>(struct_size)); });
 }
 
 crt_status crt_script_options_init(crt_script_options* options, size_t struct_size) {

@@ -181,6 +181,7 @@ crt_camera to_c(const Camera& camera) {
   out.aperture = camera.aperture;
   out.focal_distance = camera.focal_distance;
   out.aperture_shape = static_cast<std::int32_t>(camera.aperture_shape);
+  out.lens_radius = camera.lens_radius;
   return out;
 }
 
@@ -203,6 +204,7 @@ Camera to_camera(const crt_camera* camera) {
           .projection = to_enum(given.projection, Projection::orthographic, "camera.projection",
                                 "crt_projection"),
           .aperture = given.aperture,
+          .lens_radius = given.lens_radius,
           .focal_distance = given.focal_distance,
           .aperture_shape = to_enum(given.aperture_shape, ApertureShape::line,
                                     "camera.aperture_shape", "crt_aperture_shape")};

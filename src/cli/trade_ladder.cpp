@@ -50,7 +50,7 @@ Settings with_target(Settings settings, double steps) {
 }
 
 void add_grids(const Scene& scene, std::vector<Rung>& ladder) {
-  const bool lens = scene.camera.aperture > 0 && scene.settings.dof_samples > 1;
+  const bool lens = has_lens(scene.camera) && scene.settings.dof_samples > 1;
   const auto add = [&](const GridRung& grid) {
     Rung rung{
         .family = Family::grid,

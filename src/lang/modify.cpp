@@ -119,7 +119,7 @@ std::optional<Transform> transform_of(const Modifier& modifier, const Value& ope
       if (vector) return translate(*vector);
       return std::nullopt;
     case ModifierKind::rotate:
-      if (vector) return rotate(*vector);
+      if (vector) return rotate_degrees(*vector);
       return std::nullopt;
     case ModifierKind::matrix:
       if (list) return MatrixReader(modifier).read(**list);

@@ -21,9 +21,7 @@ namespace {
 // ---- entities -------------------------------------------------------------------------------
 
 void warn_of(const NoSize& no_size, const ObjectSite& site) {
-  const auto blamed =
-      std::find_if(site.attributes.begin(), site.attributes.end(),
-                   [&](const Given& given) { return given.type->name == no_size.attribute; });
+  const Given* const blamed = find_given(site.attributes, no_size.attribute);
   site.context.reporter.warning(
       blamed->value_span,
       text::format("'{}' {}: what has no size draws nothing", no_size.attribute, no_size.reason));
@@ -236,7 +234,15 @@ std::vector<ObjectType> patterns() {
 
 // ---- camera, lights, background -----------------------------------------------------------------
 
-Value finish_camera(Camera camera, const ObjectSite&) {
+Value finish_camera(Camera camera, const ObjectSite& site) {
+  const Given* const aperture = find_given(site.attributes, "aperture");
+  const Given* const lens_radius = find_given(site.attributes, "lensradius");
+  if (aperture && lens_radius) {
+    fail(lens_radius->name_span,
+         "the camera has an 'aperture' already, which is the same in thousandths: one of the two "
+         "has to go");
+  }
+  if (lens_radius) camera.aperture = 0;  // That of 2015 is not meant.
   // The projection comes from Settings, which checks the camera again. Spherical allows the most.
   Camera widest = camera;
   widest.projection = Projection::spherical;
@@ -251,6 +257,7 @@ ObjectType camera() {
        degrees("fov", &Camera::fov, "60", "must be greater than 0 and less than 180 degrees"),
        degrees("roll", &Camera::roll, "0", "must be a number of degrees of at most 1e30"),
        attribute("aperture", &Camera::aperture, "0"),
+       attribute("lensradius", &Camera::lens_radius, "0"),
        attribute("focaldistance", &Camera::focal_distance, "1"),
        attribute("apertureshape", &Camera::aperture_shape, "\"circle\"")},
       finish_camera);

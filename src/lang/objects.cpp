@@ -56,6 +56,12 @@ std::size_t find_attribute(const ObjectType& type, std::string_view name) {
   return static_cast<std::size_t>(found - type.attributes.begin());
 }
 
+const Given* find_given(std::span<const Given> attributes, std::string_view name) {
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                  [name](const Given& given) { return given.type->name == name; });
+  return found == attributes.end() ? nullptr : &*found;
+}
+
 void blame(const Error& error, Span otherwise, std::span<const Given> attributes) {
   const std::string field = without_style(error.argument());
   std::string message = error.what();

@@ -60,6 +60,9 @@ std::span<const ObjectType> object_types();
 /// Returns the index of an attribute in a row, or the number of attributes if it is not there.
 std::size_t find_attribute(const ObjectType& type, std::string_view name);
 
+/// Returns the attribute of a name, or null if it is not given.
+const Given* find_given(std::span<const Given> attributes, std::string_view name);
+
 /// Turns the core's error about a value into a Failure at the attribute that it is about.
 [[noreturn]] void blame(const Error& error, Span otherwise, std::span<const Given> attributes);
 

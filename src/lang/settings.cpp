@@ -32,7 +32,7 @@ ObjectType make_settings_type() {
                          setting("notes", &Settings::notes, "\"\""),
                          setting("width", &Settings::width, "640"),
                          setting("height", &Settings::height, "480"),
-                         setting("gamma", &Settings::gamma, "1"),
+                         setting("gamma", &Settings::gamma, "2.2"),
                          setting("supersampling", &Settings::supersampling, "1"),
                          setting("dofsamples", &Settings::dof_samples, "1"),
                          setting("targeterror", &Settings::target_error, "0"),
@@ -43,8 +43,8 @@ ObjectType make_settings_type() {
                          setting("filterwidth", &Settings::filter_width, "3"),
                          setting("recursiondepth", &Settings::recursion_depth, "3"),
                          setting("minweight", &Settings::min_weight, "1.0 / 1024"),
-                         setting("falloffmodel", &Settings::falloff_model, "\"path\""),
-                         setting("ambientmodel", &Settings::ambient_model, "\"light\""),
+                         setting("falloffmodel", &Settings::falloff_model, "\"light\""),
+                         setting("ambientmodel", &Settings::ambient_model, "\"surface\""),
                          setting("headlight", &Settings::head_light, "true"),
                          setting("showclip", &Settings::show_clip, "false"),
                          setting("seed", &Settings::seed, "0"),
@@ -58,18 +58,22 @@ ObjectType make_settings_type() {
           .build = {}};
 }
 
+/// Returns what Settings begin with.
+SettingsFields initial_fields(const Context& context) {
+  SettingsFields fields;
+  if (context.compat == compat_2015) static_cast<Settings&>(fields) = settings_of_2015();
+  return fields;
+}
+
 /// Sets compat from the options, or else from what was read before anything ran, as the script
 /// cannot compute it.
 void settle_compat(const Context& context, const std::vector<Given>& attributes,
                    Settings& settings) {
   if (context.options.compat != 0) settings.compat = context.options.compat;
   if (settings.compat == context.compat) return;
-  for (const Given& given : attributes) {
-    if (given.type->name == "compat")
-      fail(
-          given.value_span,
-          "'compat' decides how a script is read: it must be written as a plain number, 2015 or 0");
-  }
+  if (const Given* const given = find_given(attributes, "compat"))
+    fail(given->value_span,
+         "'compat' decides how a script is read: it must be written as a plain number, 2015 or 0");
 }
 
 }  // namespace
@@ -81,7 +85,7 @@ const ObjectType& settings_type() {
 
 void apply_settings(Context& context, Span block, const std::vector<Given>& attributes,
                     Scene& scene) {
-  auto fields = assemble<SettingsFields>({context, block, attributes});
+  SettingsFields fields = assemble({context, block, attributes}, initial_fields(context));
   settle_compat(context, attributes, fields);
   try {
     validate(static_cast<const Settings&>(fields));
@@ -97,11 +101,8 @@ void apply_settings(Context& context, Span block, const std::vector<Given>& attr
     validate(scene.camera);
   } catch (const Error& error) {
     // The camera was right by itself, but does not fit the projection.
-    Span span = block;
-    for (const Given& given : attributes) {
-      if (given.type->name == "camera") span = given.value_span;
-    }
-    throw Failure{.span = span,
+    const Given* const given = find_given(attributes, "camera");
+    throw Failure{.span = given ? given->value_span : block,
                   .message = "only the projection \"spherical\" can have a 'fov' of 180 degrees",
                   .code = error.code()};
   }

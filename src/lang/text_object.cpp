@@ -24,11 +24,6 @@ struct Lettering {
   std::optional<SharedMaterial> material;
 };
 
-const Given& given_for(const ObjectSite& site, std::string_view name) {
-  return *std::find_if(site.attributes.begin(), site.attributes.end(),
-                       [&](const Given& given) { return given.type->name == name; });
-}
-
 void warn_of_missing(const std::u32string& letters, const ObjectSite& site) {
   if (letters.empty()) return;
   constexpr std::size_t most_shown = 8;
@@ -37,7 +32,7 @@ void warn_of_missing(const std::u32string& letters, const ObjectSite& site) {
     shown += text::format("{}U+{:04X}", shown.empty() ? "" : ", ", static_cast<unsigned>(letter));
   }
   site.context.reporter.warning(
-      given_for(site, "text").value_span,
+      find_given(site.attributes, "text")->value_span,
       text::format("the font has no letter for {} character{} of 'text': {}{}", letters.size(),
                    letters.size() == 1 ? "" : "s", shown,
                    letters.size() > most_shown ? ", ..." : ""));
@@ -45,7 +40,7 @@ void warn_of_missing(const std::u32string& letters, const ObjectSite& site) {
 
 Value nothing(const ObjectSite& site, std::string_view attribute, std::string_view reason) {
   site.context.reporter.warning(
-      given_for(site, attribute).value_span,
+      find_given(site.attributes, attribute)->value_span,
       text::format("'{}' {}: what has no size draws nothing", attribute, reason));
   return empty_entity();
 }

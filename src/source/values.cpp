@@ -229,7 +229,11 @@ std::string camera_value(Program& program, const Camera& camera) {
   add_angle(fields, program, "roll", camera.roll, usual.roll);
   if (!program.syntax().is_script()) add_projection(fields, camera);
   // Cameras of 2015 have other defaults.
-  fields.add("aperture", "aperture", camera.aperture, fields.required(usual.aperture));
+  if (camera.lens_radius > 0) {
+    fields.add("lens_radius", "lens_radius", camera.lens_radius, usual.lens_radius);
+  } else {
+    fields.add("aperture", "aperture", camera.aperture, fields.required(usual.aperture));
+  }
   fields.add("focal_distance", "focal_distance", camera.focal_distance,
              fields.required(usual.focal_distance));
   fields.add_enum("aperture_shape", "aperture_shape", "ApertureShape", "CRT_APERTURE",
@@ -266,8 +270,10 @@ std::string background_value(Program& program, const Background& background) {
 }
 
 Fields settings_fields(const Program& program, const Settings& settings) {
-  const Settings usual;
   const Syntax& syntax = program.syntax();
+  // Only in scripts do other settings depend on this one.
+  const bool is_script_of_2015 = syntax.is_script() && settings.compat == compat_2015;
+  const Settings usual = is_script_of_2015 ? settings_of_2015() : Settings{};
   Fields fields(syntax);
   fields.add_string("title", settings.title);
   fields.add_string("author", settings.author);
@@ -302,7 +308,7 @@ Fields settings_fields(const Program& program, const Settings& settings) {
                     std::to_string(settings.seed) + (syntax.is_cpp() || syntax.is_c() ? "U" : ""));
   fields.add_enum("precision", "precision", "Precision", "CRT_PRECISION", precisions,
                   settings.precision, usual.precision);
-  fields.add("compat", "compat", settings.compat, usual.compat);
+  fields.add("compat", "compat", settings.compat, 0);
   return fields;
 }
 

@@ -14,7 +14,7 @@ Scene geometry_of(Scene scene) {
 bool is_its_own_draft(const Scene& scene) {
   const Settings& settings = scene.settings;
   return settings.supersampling == 1 && settings.target_error == 0 && settings.time_budget == 0 &&
-         (settings.dof_samples == 1 || scene.camera.aperture == 0);
+         (settings.dof_samples == 1 || !has_lens(scene.camera));
 }
 
 }  // namespace crt::studio

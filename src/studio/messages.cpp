@@ -117,6 +117,7 @@ json scene_message(const View& view) {
             {"fov", camera.fov},
             {"roll", camera.roll},
             {"aperture", camera.aperture},
+            {"lensRadius", camera.lens_radius},
             {"focalDistance", camera.focal_distance},
             {"projection", projections.at(static_cast<std::size_t>(camera.projection))},
             {"apertureShape", static_cast<int>(camera.aperture_shape)}}}};
@@ -260,6 +261,7 @@ Camera camera_of(const json& value) {
   camera.fov = value.at("fov").get<double>();
   camera.roll = value.at("roll").get<double>();
   camera.aperture = value.at("aperture").get<double>();
+  camera.lens_radius = value.value("lensRadius", 0.0);
   camera.focal_distance = value.at("focalDistance").get<double>();
   const auto projection = value.at("projection").get<std::string>();
   const auto found = std::find(projections.begin(), projections.end(), projection);

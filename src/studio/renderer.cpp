@@ -37,7 +37,8 @@ constexpr int most_lines = 1000;
 bool are_equal(const Camera& a, const Camera& b) {
   return a.position == b.position && a.pointing == b.pointing && a.fov == b.fov &&
          a.roll == b.roll && a.projection == b.projection && a.aperture == b.aperture &&
-         a.focal_distance == b.focal_distance && a.aperture_shape == b.aperture_shape;
+         a.lens_radius == b.lens_radius && a.focal_distance == b.focal_distance &&
+         a.aperture_shape == b.aperture_shape;
 }
 
 bool are_equal(const std::optional<Camera>& a, const std::optional<Camera>& b) {

@@ -16,10 +16,8 @@ import "crt/colors"  -- crimson, sky, navy and others
 Settings {
     width -> 640
     height -> 480
-    gamma -> 2.2               -- what screens want
-    ambientmodel -> "surface"  -- ambient light takes the colour of what it falls on
-    supersampling -> 3         -- 3 x 3 rays for each pixel make smooth edges
-    recursiondepth -> 5        -- so often light is mirrored
+    supersampling -> 3   -- 3 x 3 rays for each pixel make smooth edges
+    recursiondepth -> 5  -- so often light is mirrored
 
     -- x is to the right, y up, and z away from you.
     camera -> Camera {

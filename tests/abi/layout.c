@@ -103,7 +103,7 @@ AT(crt_light, radius, 96);
 AT(crt_light, falloff, 104);
 AT(crt_light, ambient, 112);
 
-SIZE(crt_camera, 96);
+SIZE(crt_camera, 104);
 AT(crt_camera, struct_size, 0);
 AT(crt_camera, projection, 4);
 AT(crt_camera, position, 8);
@@ -114,6 +114,7 @@ AT(crt_camera, aperture, 72);
 AT(crt_camera, focal_distance, 80);
 AT(crt_camera, aperture_shape, 88);
 AT(crt_camera, reserved, 92);
+AT(crt_camera, lens_radius, 96);
 
 SIZE(crt_background, 120);
 AT(crt_background, struct_size, 0);
@@ -424,5 +425,9 @@ int main(void) {
   expect_double("crt_background.alpha", bytes, 32, 1);
   if (crt_settings_init((crt_settings*)(void*)bytes, 88) != CRT_OK) return 1;
   expect_double("crt_settings.min_weight", bytes, 32, 1.0 / 1024);
+  expect_double("crt_settings.gamma", bytes, 24,
+                1);  // as in version 1.0, whose struct had 88 bytes
+  if (crt_settings_init((crt_settings*)(void*)bytes, 152) != CRT_OK) return 1;
+  expect_double("crt_settings.gamma", bytes, 24, 2.2);
   return failures == 0 ? 0 : 1;
 }

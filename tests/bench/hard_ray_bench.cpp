@@ -89,7 +89,7 @@ double worst(RayQueries& queries, const std::vector<Ray>& rays, std::vector<Hit>
 
 void ask(benchmark::State& state, const Entity& solid, double distance) {
   const bool is_turned = state.range(0) != 0;
-  const Transform place = is_turned ? rotate({30, 40, 50}) : Transform{};
+  const Transform place = is_turned ? rotate_degrees({30, 40, 50}) : Transform{};
   Scene scene;
   scene.entities = {solid.transformed(place)};
   scene.settings.precision = state.range(1) != 0 ? Precision::exact : Precision::standard;

@@ -119,14 +119,14 @@ class Neighbourhood {
   std::vector<Rays> pixels_;
 };
 
-PixelClass class_at(const Neighbourhood& all, int x, int y, bool has_lens,
+PixelClass class_at(const Neighbourhood& all, int x, int y, bool is_blurred,
                     const EntityRange& interest) {
   const Rays& rays = *all.at(x, y);
   const auto any_entity = [&](const auto& is_so) {
     return std::any_of(rays.entities.begin(), rays.entities.end(), is_so);
   };
   if (farthest(rays.low, rays.high) <= most_of_flat) return PixelClass::flat;
-  if (has_lens) return PixelClass::defocused;
+  if (is_blurred) return PixelClass::defocused;
   if (any_entity([&](std::uint32_t id) { return id >= interest.first && id <= interest.last; })) {
     return PixelClass::special;
   }
@@ -139,12 +139,12 @@ PixelClass class_at(const Neighbourhood& all, int x, int y, bool has_lens,
 
 std::vector<PixelClass> classes_of(const Scene& scene, const Region& region,
                                    const EntityRange& interest) {
-  const bool has_lens = scene.camera.aperture > 0 && scene.settings.dof_samples > 1;
+  const bool is_blurred = has_lens(scene.camera) && scene.settings.dof_samples > 1;
   const Neighbourhood all(scene, region);
   std::vector<PixelClass> classes;
   for (int y = region.y; y < region.y + region.height; ++y) {
     for (int x = region.x; x < region.x + region.width; ++x) {
-      classes.push_back(class_at(all, x, y, has_lens, interest));
+      classes.push_back(class_at(all, x, y, is_blurred, interest));
     }
   }
   return classes;

@@ -330,26 +330,6 @@ TEST_CASE(
   CHECK(is_finite_unit(ray.direction));
 }
 
-TEST_CASE(
-    "a lens of 2015 reaches aperture / width across and aperture / height up, whatever the "
-    "projection") {
-  for (const Projection projection : all_projections) {
-    Camera camera = plain_camera(projection);
-    camera.aperture = 6;
-    for (const auto& [width, height] : {std::pair(20, 10), std::pair(40, 20), std::pair(30, 60)}) {
-      const CameraRays rays(camera, width, height, crt::compat_2015);
-      REQUIRE(rays.has_lens());
-      const double x = 0.3 * width;
-      const double y = 0.6 * height;
-      const CameraRay middle = rays.ray(x, y);
-      const Vec3 across = rays.ray(x, y, {1, 0}).origin - middle.origin;
-      const Vec3 up = rays.ray(x, y, {0, -1}).origin - middle.origin;
-      CHECK(glm::length(across - (6.0 / width) * rays.right()) < 1e-14);
-      CHECK(glm::length(up + (6.0 / height) * rays.up()) < 1e-14);
-    }
-  }
-}
-
 TEST_CASE("scaling the scene by a power of two changes no bit of any direction") {
   std::mt19937_64 random(6);
   for (const Projection projection : all_projections) {

@@ -15,6 +15,7 @@ crt_settings settings_of(std::int32_t width, std::int32_t height, std::int32_t c
   CHECK(settings.compat == 0);
   settings.width = width;
   settings.height = height;
+  settings.gamma = 1;
   settings.compat = compat;
   return settings;
 }
@@ -122,6 +123,9 @@ TEST_CASE("a script of 2015 is run as one by the options' compat") {
   settings.struct_size = sizeof settings;
   REQUIRE(crt_scene_get_settings(scene.get(), &settings) == CRT_OK);
   CHECK(settings.compat == 2015);
+  CHECK(settings.gamma == 1);
+  CHECK(settings.falloff_model == CRT_FALLOFF_PATH);
+  CHECK(settings.ambient_model == CRT_AMBIENT_LIGHT);
   crt_camera camera;
   camera.struct_size = sizeof camera;
   REQUIRE(crt_scene_get_camera(scene.get(), &camera) == CRT_OK);

@@ -285,7 +285,7 @@ void Session::edit_scene() {
       camera.projection = static_cast<std::int32_t>(input_.below(6)) - 1;
       camera.position[2] = input_.number();
       camera.fov = input_.number();
-      camera.aperture = input_.number();
+      (input_.below(2) == 0 ? camera.aperture : camera.lens_radius) = input_.number();
       camera.aperture_shape = static_cast<std::int32_t>(input_.below(11)) - 1;
       crt_scene_set_camera(scene, &camera);
       break;

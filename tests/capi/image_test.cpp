@@ -161,17 +161,17 @@ TEST_CASE("an image takes other settings without changing its pixels") {
   crt_settings settings;
   settings.struct_size = sizeof settings;
   REQUIRE(crt_image_settings(image.get(), &settings) == CRT_OK);
-  CHECK(settings.gamma == 1);
-  settings.gamma = 2;
-  const ImageHandle brighter = made<ImageHandle>(
+  CHECK(settings.gamma == 2.2);
+  settings.gamma = 1;
+  const ImageHandle darker = made<ImageHandle>(
       [&](crt_image** out) { return crt_image_with_settings(image.get(), &settings, out); });
   std::uint8_t before[4];
   std::uint8_t after[4];
   REQUIRE(crt_image_to_rgba8(image.get(), before, 0) == CRT_OK);
-  REQUIRE(crt_image_to_rgba8(brighter.get(), after, 0) == CRT_OK);
-  CHECK(before[0] == 64);
-  CHECK(after[0] == 128);
-  CHECK(crt_image_pixels(brighter.get(), nullptr)[0] == 0.25f);
+  REQUIRE(crt_image_to_rgba8(darker.get(), after, 0) == CRT_OK);
+  CHECK(before[0] == 136);  // 255 * 0.25^(1 / 2.2)
+  CHECK(after[0] == 64);
+  CHECK(crt_image_pixels(darker.get(), nullptr)[0] == 0.25f);
 }
 
 TEST_CASE("an image lends the channels that were asked for, by name") {

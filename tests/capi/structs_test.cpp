@@ -37,10 +37,11 @@ struct Guarded {
 /// Initialises structs of every length. Nothing may be written behind them, and what fits has its
 /// default.
 template <class Struct, class Init>
-void check_init(const Init& init) {
+void check_init(const Init& init, std::size_t size_of_other_defaults = 0) {
   Struct whole;
   REQUIRE(init(&whole, sizeof whole) == CRT_OK);
   for (std::size_t size = 4; size <= sizeof whole + 40; ++size) {
+    if (size == size_of_other_defaults) continue;
     Guarded<Struct> given(size);
     REQUIRE(init(given.get(), size) == CRT_OK);
     CHECK(given.untouched_behind());
@@ -78,7 +79,7 @@ TEST_CASE("initialising writes the defaults and nothing behind the size that was
   check_init<crt_light>(crt_light_init);
   check_init<crt_camera>(crt_camera_init);
   check_init<crt_background>(crt_background_init);
-  check_init<crt_settings>(crt_settings_init);
+  check_init<crt_settings>(crt_settings_init, offsetof(crt_settings, precision));  // of 1.0
   check_init<crt_custom>(crt_custom_init);
   check_init<crt_script_options>(crt_script_options_init);
   check_init<crt_render_options>(crt_render_options_init);
@@ -109,7 +110,7 @@ TEST_CASE("a struct without a size is an error that says so") {
 TEST_CASE("what a struct from an older header does not have keeps its default") {
   const SceneHandle scene = new_scene();
   crt_settings settings = small_settings();
-  settings.gamma = 2.2;
+  settings.gamma = 3;
   settings.seed = 77;
   // An older header's struct ended before gamma. The library must not read the bytes behind it.
   settings.struct_size = offsetof(crt_settings, gamma);
@@ -117,14 +118,54 @@ TEST_CASE("what a struct from an older header does not have keeps its default") 
   crt_settings back = small_settings();
   REQUIRE(crt_scene_get_settings(scene.get(), &back) == CRT_OK);
   CHECK(back.width == 8);
-  CHECK(back.gamma == 1);
+  CHECK(back.gamma == 2.2);
   CHECK(back.seed == 0);
   CHECK(std::string(back.title).empty());
   // A struct whose end cuts a field in two does not have that field.
   settings.struct_size = offsetof(crt_settings, gamma) + 7;
   REQUIRE(crt_scene_set_settings(scene.get(), &settings) == CRT_OK);
   REQUIRE(crt_scene_get_settings(scene.get(), &back) == CRT_OK);
+  CHECK(back.gamma == 2.2);
+}
+
+TEST_CASE("settings that end as those of version 1.0 have the defaults of that version") {
+  constexpr std::size_t size_in_1_0 = offsetof(crt_settings, precision);
+  Guarded<crt_settings> settings(size_in_1_0);
+  REQUIRE(crt_settings_init(settings.get(), size_in_1_0) == CRT_OK);
+  CHECK(settings.untouched_behind());
+  CHECK(settings.get()->gamma == 1);
+  CHECK(settings.get()->falloff_model == CRT_FALLOFF_PATH);
+  CHECK(settings.get()->width == 640);
+  const SceneHandle scene = new_scene();
+  REQUIRE(crt_scene_set_settings(scene.get(), settings.get()) == CRT_OK);
+  crt_settings back;
+  back.struct_size = sizeof back;
+  REQUIRE(crt_scene_get_settings(scene.get(), &back) == CRT_OK);
   CHECK(back.gamma == 1);
+  CHECK(back.falloff_model == CRT_FALLOFF_PATH);
+  CHECK(back.ambient_model == CRT_AMBIENT_LIGHT);
+  CHECK(back.compat == 0);
+}
+
+TEST_CASE("a camera has one radius of the lens, and a struct of version 1.0 has no other") {
+  const SceneHandle scene = new_scene();
+  crt_camera camera;
+  REQUIRE(crt_camera_init(&camera, sizeof camera) == CRT_OK);
+  CHECK(camera.lens_radius == 0);
+  camera.lens_radius = 0.25;
+  REQUIRE(crt_scene_set_camera(scene.get(), &camera) == CRT_OK);
+  crt_camera back;
+  back.struct_size = sizeof back;
+  REQUIRE(crt_scene_get_camera(scene.get(), &back) == CRT_OK);
+  CHECK(back.lens_radius == 0.25);
+  camera.aperture = 250;
+  CHECK(crt_scene_set_camera(scene.get(), &camera) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("lens_radius must be 0 where there is an aperture"));
+  camera.struct_size = offsetof(crt_camera, lens_radius);
+  REQUIRE(crt_scene_set_camera(scene.get(), &camera) == CRT_OK);
+  REQUIRE(crt_scene_get_camera(scene.get(), &back) == CRT_OK);
+  CHECK(back.aperture == 250);
+  CHECK(back.lens_radius == 0);
 }
 
 TEST_CASE("a struct from a newer header is taken as far as this library knows it") {
@@ -260,6 +301,9 @@ TEST_CASE("the defaults are those of the C++ interface") {
   CHECK(settings.width == 640);
   CHECK(settings.height == 480);
   CHECK(settings.recursion_depth == 3);
+  CHECK(settings.gamma == 2.2);
+  CHECK(settings.falloff_model == CRT_FALLOFF_LIGHT);
+  CHECK(settings.ambient_model == CRT_AMBIENT_SURFACE);
   CHECK(settings.min_weight == 1.0 / 1024);
   CHECK(settings.target_error == 0);
   CHECK(settings.time_budget == 0);

@@ -31,7 +31,9 @@ TEST_CASE_FIXTURE(Fixture, "statistics tell seconds, rays, counters and settings
   CHECK(stats["rays"]["camera"].number == 16 * 12 * 9);
   CHECK(stats["settings"]["supersampling"].number == 3);
   CHECK(stats["settings"]["title"].string == "A ball");
-  CHECK(stats["settings"]["falloffmodel"].string == "path");
+  CHECK(stats["settings"]["falloffmodel"].string == "light");
+  CHECK(stats["settings"]["ambientmodel"].string == "surface");
+  CHECK(stats["settings"]["gamma"].number == 2.2);
   CHECK(stats["settings"]["precision"].string == "standard");
   CHECK(stats["counters"]["escalations"].number == 0);
   CHECK(stats["counters"]["undecided"].number == 0);

@@ -45,7 +45,7 @@ std::vector<Entity> mixed_entities() {
   for (int i = 0; i < 3000; ++i) {
     const Entity pair = random.ball(1, 1) ^ random.ball(1, 1);
     entities.push_back(
-        (pair - Box{}).transformed(rotate(random.point(180))).with_material(Material{}));
+        (pair - Box{}).transformed(rotate_degrees(random.point(180))).with_material(Material{}));
     entities.push_back(Entity(Box{}).transformed(translate(random.point(3))));
   }
   Entity chain = block;
@@ -206,7 +206,7 @@ TEST_CASE("a bounding box holds all that rays meet of an entity") {
   std::vector<Entity> entities = {
       csg_union(random.balls(30, 5, 0.4)),
       csg_difference(Box{}, random.balls(10, 1, 0.4)),
-      Entity(Torus{}).transformed(rotate({20, 50, 110})).transformed(scale({1, 3, 0.2})),
+      Entity(Torus{}).transformed(rotate_degrees({20, 50, 110})).transformed(scale({1, 3, 0.2})),
       Entity(Cone{}) ^ random.ball(0.5, 0.8),
       Capsule{.from = {1e9, 0, 0}, .to = {1e9, 5, 3}},
       Disc{.normal = {1, 2, 3}}};

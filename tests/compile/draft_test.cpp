@@ -39,6 +39,9 @@ TEST_CASE("a draft has one ray a pixel and no lens, and all else is as in the sc
   CHECK(draft.settings.target_error == 0);
   CHECK(draft.settings.time_budget == 0);
   CHECK(draft.camera.aperture == 0);
+  Scene in_units = detailed_scene();
+  in_units.camera = {.lens_radius = 0.1};
+  CHECK_FALSE(has_lens(draft_of(in_units, 1).camera));
   CHECK(draft.camera.fov == 0.5);
   CHECK(draft.settings.recursion_depth == 7);
   CHECK(draft.entities.size() == 1);

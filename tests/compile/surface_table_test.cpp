@@ -62,9 +62,9 @@ TEST_CASE("transforms that lead to one plane give one surface") {
   const Box box{.corner_a = {0, 0, 0}, .corner_b = {1, 1, 1}};
   CHECK(share(box, placed({translate({0, 3, 0})}), Plane{.position = {0, 4, 0}}, {}));
   CHECK(share(box, placed({scale(4)}), Plane{.normal = {0, 0, 1}, .position = {0, 0, 4}}, {}));
-  CHECK(share(box, placed({rotate({90, 0, 0}), translate({0, 2, 0})}), Plane{.position = {0, 2, 0}},
-              {}));
-  const Placement turned = placed({rotate({10, 20, 30}), translate({0.1, 0.2, 0.3})});
+  CHECK(share(box, placed({rotate_degrees({90, 0, 0}), translate({0, 2, 0})}),
+              Plane{.position = {0, 2, 0}}, {}));
+  const Placement turned = placed({rotate_degrees({10, 20, 30}), translate({0.1, 0.2, 0.3})});
   CHECK(share(box, turned, Box{.corner_a = {1, 1, 1}, .corner_b = {2, 2, 2}}, turned));
 }
 
@@ -76,5 +76,6 @@ TEST_CASE("round surfaces are one where all their numbers agree") {
   CHECK_FALSE(share(ball, {}, Sphere{.center = {1, 2, 3}, .radius = 0.6}, {}));
   CHECK_FALSE(share(ball, placed({scale(Vec3(1, 1, 2))}), ball, {}));
   const Torus ring{};
-  CHECK(share(ring, placed({rotate({1, 2, 3})}), ring, placed({rotate({1, 2, 3})})));
+  CHECK(
+      share(ring, placed({rotate_degrees({1, 2, 3})}), ring, placed({rotate_degrees({1, 2, 3})})));
 }

@@ -158,7 +158,7 @@ Piece piece(SolidMaker& make, const Setting& setting, int most) {
   move();
   // These turns are exact.
   if (make.integer(0, 2) == 0 && k == 0 && kind < 4) {
-    result.entity = result.entity.transformed(rotate({0, 0, 90.0 * make.integer(1, 3)}));
+    result.entity = result.entity.transformed(rotate_degrees({0, 0, 90.0 * make.integer(1, 3)}));
   }
   if (make.integer(0, 1) == 0) move();
   if (kind == 3) {

@@ -158,7 +158,7 @@ class Trees {
         kind < 5 ? Entity(Cylinder{.from = from, .to = to, .radius = radius})
                  : Entity(Cone{.from = from, .to = to, .radius = radius, .radius2 = other});
     if (make_.integer(0, 5) != 0) return leaf;
-    return leaf.transformed(rotate({make_.real(-180, 180), 90.0 * make_.integer(0, 3), 0}))
+    return leaf.transformed(rotate_degrees({make_.real(-180, 180), 90.0 * make_.integer(0, 3), 0}))
         .transformed(translate(to_world(make_.grid_point()) - to_world(Vec3(0))));
   }
 

@@ -51,7 +51,7 @@ TEST_CASE("films of a hundred roundings are seen, and gaps of two are none") {
     };
     const Vec3 beside = 0.4 * size * random.in_cube();
     const Vec3 direction(1, random.between(-0.2, 0.2), random.between(-0.2, 0.2));
-    const Transform map = i % 2 == 0 ? Transform{} : rotate(180.0 * random.in_cube());
+    const Transform map = i % 2 == 0 ? Transform{} : rotate_degrees(180.0 * random.in_cube());
     const Ray ray{.origin = moved(map, Vec3(place, 0, 0) + beside - 2 * size * direction),
                   .direction = moved(map, direction)};
     CAPTURE(i);

@@ -96,7 +96,7 @@ inline std::size_t check_tiers(const Entity& entity, const Vec3& from, const Vec
 }
 
 inline Transform turned(const Vec3& degrees, const Vec3& offset = {0, 0, 0}) {
-  Transform map = rotate(degrees);
+  Transform map = rotate_degrees(degrees);
   map.translation = offset;
   return map;
 }

@@ -82,7 +82,7 @@ Scene lit_scene(const Named& named, double scale_by, Precision precision, Random
   scene.settings.height = 24;
   scene.settings.precision = precision;
   const Transform turned =
-      rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+      rotate_degrees({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
   scene.entities = {named.solid.transformed(turned)
                         .transformed(scale(scale_by))
                         .with_material(Material{.color = grey(1)})};

@@ -146,9 +146,9 @@ Image taken(std::vector<Entity> entities, const Transform& placed, int side, Pre
 }
 
 std::vector<Transform> placements() {
-  Transform far = rotate({33, 5, 67});
+  Transform far = rotate_degrees({33, 5, 67});
   far.translation = {30, -70, 20};
-  return {Transform{}, rotate({17, 71, 41}), far};
+  return {Transform{}, rotate_degrees({17, 71, 41}), far};
 }
 
 void check_pairs(const std::vector<Pair>& pairs) {

@@ -51,8 +51,9 @@ TEST_CASE("an eye on a solid sees the open before it and the solid behind it") {
   Random random(50);
   for (const Post& post : posts()) {
     for (int round = 0; round < 16; ++round) {
-      Transform placed =
-          round < 2 ? Transform{} : rotate({random.between(0, 360), random.between(0, 360), 0});
+      Transform placed = round < 2
+                             ? Transform{}
+                             : rotate_degrees({random.between(0, 360), random.between(0, 360), 0});
       placed.translation = random.between(0, 30) * random.direction();
       const Precision precision = round % 2 == 0 ? Precision::standard : Precision::exact;
       for (const bool glassy : {false, true}) {
@@ -83,8 +84,9 @@ TEST_CASE("an eye on a solid sees the open before it and the solid behind it") {
 TEST_CASE("an eye at the level of the water sees into it below and across it above") {
   Random random(51);
   for (int round = 0; round < 12; ++round) {
-    Transform placed =
-        round < 2 ? Transform{} : rotate({random.between(0, 360), random.between(0, 360), 0});
+    Transform placed = round < 2
+                           ? Transform{}
+                           : rotate_degrees({random.between(0, 360), random.between(0, 360), 0});
     placed.translation = random.between(0, 30) * random.direction();
     Scene scene = dark_scene();
     scene.settings.width = 20;

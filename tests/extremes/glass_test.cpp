@@ -26,8 +26,9 @@ Entity random_solid(SolidMaker& maker) {
 }
 
 Transform random_placement(Random& random, int round) {
-  Transform placed =
-      round % 3 == 0 ? Transform{} : rotate({random.between(0, 360), random.between(0, 360), 0});
+  Transform placed = round % 3 == 0
+                         ? Transform{}
+                         : rotate_degrees({random.between(0, 360), random.between(0, 360), 0});
   placed.translation = random.between(0, 20) * random.direction();
   return placed;
 }

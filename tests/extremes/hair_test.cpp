@@ -110,8 +110,9 @@ TEST_CASE("pictures of random solids with coincident faces are those of rays lif
     scene.settings.recursion_depth = bounces;
     scene.settings.precision = round % 2 == 0 ? Precision::standard : Precision::exact;
     const double size = std::ldexp(1.0, random.integer(-60, 60));
-    Transform placed =
-        round % 3 == 0 ? Transform{} : rotate({random.between(0, 360), random.between(0, 360), 0});
+    Transform placed = round % 3 == 0
+                           ? Transform{}
+                           : rotate_degrees({random.between(0, 360), random.between(0, 360), 0});
     placed.translation = random.between(0, 20) * random.direction();
     std::vector<Paint> paints;
     for (int i = 0; i < 3; ++i) {

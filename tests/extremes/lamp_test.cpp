@@ -36,8 +36,9 @@ TEST_CASE("a light on a surface lights what is before it") {
   Random random(40);
   for (const Fixture& fixture : fixtures()) {
     for (int round = 0; round < 12; ++round) {
-      Transform placed =
-          round < 2 ? Transform{} : rotate({random.between(0, 360), random.between(0, 360), 0});
+      Transform placed = round < 2
+                             ? Transform{}
+                             : rotate_degrees({random.between(0, 360), random.between(0, 360), 0});
       placed.translation = random.between(0, 30) * random.direction();
       const auto place = [&](const Vec3& p) { return apply(placed, p); };
       Scene scene = dark_scene();

@@ -46,7 +46,7 @@ TEST_CASE(
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     for (int round = 0; round < 40; ++round) {
       const Vec3 angles(random.between(0, 360), random.between(0, 360), random.between(0, 360));
-      const Transform turned = rotate(angles);
+      const Transform turned = rotate_degrees(angles);
       const Transform moved = translate(random.between(0, 100) * random.direction());
       const auto place = [&](const Vec3& p) { return apply(moved, apply(turned, p)); };
       Scene scene = dark_scene();
@@ -63,8 +63,9 @@ TEST_CASE(
                           .material = glass(layer.index)};
         if (!alike) slab = slab.transformed(translate({0, height, 0}));
         if (!alike && scene.entities.size() % 2 == 0) {
-          slab = slab.transformed(rotate({angles.x, 0, 0})).transformed(rotate({0, angles.y, 0}));
-          slab = slab.transformed(rotate({0, 0, angles.z}));
+          slab = slab.transformed(rotate_degrees({angles.x, 0, 0}))
+                     .transformed(rotate_degrees({0, angles.y, 0}));
+          slab = slab.transformed(rotate_degrees({0, 0, angles.z}));
         } else {
           slab = slab.transformed(turned);
         }
@@ -110,7 +111,7 @@ TEST_CASE("light through a shell that is filled to the brim bends as in concentr
   Random random(2);
   for (int round = 0; round < 60; ++round) {
     const Transform turned =
-        rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+        rotate_degrees({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
     const Vec3 center = round % 3 == 0 ? Vec3(0) : 30.0 * random.direction();
     const Entity shell = Entity(Sphere{.radius = outer, .material = glass(1.5)}) -
                          Entity(Sphere{.radius = inner, .material = glass(1.5)});
@@ -256,7 +257,8 @@ Fogs random_fogs(Random& random, int count) {
     }
     result.fogs.push_back(fog);
   }
-  result.turned = rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+  result.turned =
+      rotate_degrees({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
   result.moved = 10.0 * random.direction();
   return result;
 }

@@ -11,7 +11,7 @@ using namespace crt::test;
 namespace {
 
 Transform moved_and_turned(double unit) {
-  Transform map = rotate({20, 50, 10});
+  Transform map = rotate_degrees({20, 50, 10});
   map.row_y *= 1.3;
   map.translation = unit * Vec3(-1.6, 0.6, -1);
   return map;

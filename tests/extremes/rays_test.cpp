@@ -148,7 +148,7 @@ TEST_CASE("a direction's length changes t by a power of two and nothing else") {
                                         Torus{},
                                         Plane{},
                                         Entity(Box{}) - Entity(Sphere{.radius = 0.9}),
-                                        Entity(Sphere{}).transformed(rotate({10, 20, 30}))};
+                                        Entity(Sphere{}).transformed(rotate_degrees({10, 20, 30}))};
   const Ray ray{.origin = {0.25, 3, -4}, .direction = {0.1875, -0.75, 1}};
   for (const Precision precision : both) {
     for (const Entity& entity : entities) {

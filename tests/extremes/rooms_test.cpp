@@ -17,8 +17,8 @@ std::vector<Room> placed_rooms() {
   std::vector<Room> result;
   for (const Room& room : all_rooms()) {
     result.push_back(room);
-    result.push_back(room.placed(rotate({17, 71, 41}), 1));
-    Transform skewed = rotate({33, 5, 67});
+    result.push_back(room.placed(rotate_degrees({17, 71, 41}), 1));
+    Transform skewed = rotate_degrees({33, 5, 67});
     skewed.row_x *= 3e-3;
     skewed.row_y *= 5e-3;
     skewed.row_z *= 2e-3;

@@ -129,10 +129,10 @@ Image taken(std::vector<Entity> entities, const Transform& placed, int side, Pre
 }  // namespace
 
 TEST_CASE("glass on tables, water in glasses and labels have no speckles") {
-  Transform far = rotate({33, 5, 67});
+  Transform far = rotate_degrees({33, 5, 67});
   far.translation = {30, -70, 20};
   for (const Pair& pair : pairs()) {
-    for (const Transform& placed : {Transform{}, rotate({17, 71, 41}), far}) {
+    for (const Transform& placed : {Transform{}, rotate_degrees({17, 71, 41}), far}) {
       for (int side = 0; side < 6; ++side) {
         const Image reference = taken(pair.sunk, placed, side, Precision::standard);
         for (const Precision precision : {Precision::standard, Precision::exact}) {
@@ -154,7 +154,7 @@ TEST_CASE("glass in glass has the same bytes for any number of threads") {
   scene.background = GradientBackground{};
   scene.lights = {PointLight{.origin = {3, 5, -4}}};
   scene.entities = {table(), filling(0), tumbler(), label(0)};
-  for (Entity& entity : scene.entities) entity = entity.transformed(rotate({10, 20, 30}));
+  for (Entity& entity : scene.entities) entity = entity.transformed(rotate_degrees({10, 20, 30}));
   scene.camera = {.position = {0.3, 1.5, -4}, .pointing = {0, 0.5, 0}, .fov = 0.6};
   const PreparedScene prepared = prepare(scene);
   const Image reference = render(prepared, {.threads = 1});

@@ -60,9 +60,9 @@ std::optional<Chord> ball_chord(const Transform& map, const Ray& ray) {
 /// Returns a map whose longest span is 10^8 times its shortest, turned before and after.
 Transform squeezed(Random& random) {
   const Transform before =
-      rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+      rotate_degrees({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
   const Transform after =
-      rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+      rotate_degrees({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
   const Vec3 factors(1e4, random.between(0.1, 10), 1e-4);
   Transform result;
   Vec3* rows[] = {&result.row_x, &result.row_y, &result.row_z};
@@ -144,7 +144,7 @@ TEST_CASE("a million transforms in a row are one") {
   CHECK(hit->position == Vec3(count * 0x1p-20, 0, -1));
 
   Entity turned = Box{};
-  const Transform step = rotate({0, 360.0 / count, 0});
+  const Transform step = rotate_degrees({0, 360.0 / count, 0});
   for (int i = 0; i < count; ++i) turned = turned.transformed(step);
   scene.entities = {turned};
   // Each of the rotations was rounded. A million roundings of u that add up are 10^-10.

@@ -326,7 +326,7 @@ TEST_CASE(
   for (int round = 0; round < 40; ++round) {
     TriangleList row;
     for (int i = 0; i < 6; ++i) add_box(row, {0.1 * i, 0, 0}, {0.1 * i + 0.1, 0.1, 0.1});
-    const Transform turned = rotate({random.uniform(0, 6), random.uniform(0, 6), 1});
+    const Transform turned = rotate_degrees({random.uniform(0, 6), random.uniform(0, 6), 1});
     for (Vec3& position : row.positions) {
       const Vec3 p = position;
       position = p.x * turned.row_x + p.y * turned.row_y + p.z * turned.row_z;

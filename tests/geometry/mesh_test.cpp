@@ -338,7 +338,7 @@ TEST_CASE("a turned mesh tells one story in both tiers, and any power of two as 
   Random random(7);
   for (int round = 0; round < 30; ++round) {
     const TriangleList mesh = random_mesh(random);
-    const Transform turned = rotate({random.uniform(0, 6), random.uniform(0, 6), 1});
+    const Transform turned = rotate_degrees({random.uniform(0, 6), random.uniform(0, 6), 1});
     const Entity entity = mesh.entity().transformed(turned);
     const PreparedScene standard = scene_of(entity, Precision::standard);
     const PreparedScene exact = scene_of(entity, Precision::exact);

@@ -92,6 +92,7 @@ TEST_CASE("in 2015 values are cut to the level below") {
   image.set(2, 0, {2, -1, 0, 1});
   image.set(3, 0, {0.5, 0.25, 0, 0.5});
   crt::Settings settings;
+  settings.gamma = 1;
   settings.compat = crt::compat_2015;
   image.set_settings(settings);
   CHECK(image.to_rgba8() == std::vector<std::uint8_t>{254, 127, 255, 255, 0, 254, 254, 255, 255, 0,

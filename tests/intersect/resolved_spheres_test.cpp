@@ -97,6 +97,6 @@ TEST_CASE("spheres are resolved however they are moved") {
     CHECK(is_resolved(entity));
     CHECK(is_resolved(entity.transformed(translate({0.1, 0.2, 0.3}))));
     CHECK(is_resolved(
-        entity.transformed(scale(Vec3(1, 2, 3))).transformed(rotate(Vec3(10, 20, 30)))));
+        entity.transformed(scale(Vec3(1, 2, 3))).transformed(rotate_degrees(Vec3(10, 20, 30)))));
   }
 }

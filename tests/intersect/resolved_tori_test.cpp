@@ -158,7 +158,7 @@ TEST_CASE("lines side by side enter a torus where each enters it, to the last bi
 TEST_CASE("for nearly all rays from outside it is resolved where they enter a torus") {
   Numbers numbers(seed);
   const Entity entities[] = {Entity(Torus{.center = {1, 2, 3}, .radius = 1, .thickness = 0.3})
-                                 .transformed(rotate(Vec3(20, 30, 40)))};
+                                 .transformed(rotate_degrees(Vec3(20, 30, 40)))};
   const CompiledScene scene = compile(entities);
   const std::uint32_t first[] = {0};
   const BoundingProxies proxies(scene, first);

@@ -200,6 +200,85 @@ TEST_CASE("a script of 2015 has a lens by default, with and without a camera") {
   CHECK(of_today.result.scene->camera.focal_distance == 1);
 }
 
+TEST_CASE("a script of 2015 that says how large the lens is in units has no other") {
+  const auto radii = [](const char* lens) {
+    const auto run = run_statements(
+        std::string("Settings { compat -> 2015 camera -> Camera { position -> vec3(0, 0, -1) "
+                    "pointing -> vec3(0, 0, 0) ") +
+        lens + " } }");
+    const crt::Camera& camera = run.result.scene->camera;
+    return std::array{camera.aperture, camera.lens_radius};
+  };
+  CHECK(radii("") == std::array{3.0, 0.0});
+  CHECK(radii("aperture -> 20") == std::array{20.0, 0.0});
+  CHECK(radii("lensradius -> 0.5") == std::array{0.0, 0.5});
+  CHECK(radii("lensradius -> 0") == std::array{0.0, 0.0});
+}
+
+TEST_CASE("a script of 2015 begins with the settings of that year, wherever the year is said") {
+  const auto settings = [](const std::string& statements, const ScriptOptions& options = {}) {
+    return run_statements(statements, options).result.scene->settings;
+  };
+  const auto check = [](const Settings& found, const Settings& expected) {
+    CHECK(found.gamma == expected.gamma);
+    CHECK(found.falloff_model == expected.falloff_model);
+    CHECK(found.ambient_model == expected.ambient_model);
+    CHECK(found.compat == expected.compat);
+  };
+  const Settings of_2015 = crt::settings_of_2015();
+  CHECK(of_2015.gamma == 1);
+  CHECK(of_2015.falloff_model == crt::FalloffModel::path);
+  CHECK(of_2015.ambient_model == crt::AmbientModel::light);
+  ScriptOptions in_options;
+  in_options.compat = 2015;
+  ScriptOptions in_settings;
+  in_settings.settings = {{"compat", "2015"}};
+  ScriptOptions turned_off;
+  turned_off.settings = {{"compat", "0"}};
+  check(settings("Settings { compat -> 2015 }"), of_2015);
+  check(settings("", in_options), of_2015);
+  check(settings("Settings { width -> 9 }", in_options), of_2015);
+  check(settings("", in_settings), of_2015);
+  check(settings(""), Settings{});
+  check(settings("Settings { compat -> 2015 }", turned_off), Settings{});
+  // What a script says itself holds.
+  const Settings own = settings(
+      "Settings { compat -> 2015 gamma -> 2.2 falloffmodel -> \"light\" ambientmodel -> "
+      "\"surface\" }");
+  CHECK(own.gamma == 2.2);
+  CHECK(own.falloff_model == crt::FalloffModel::light);
+  CHECK(own.ambient_model == crt::AmbientModel::surface);
+}
+
+TEST_CASE("light of 2015 fades over the way from the camera, and lights what is black") {
+  // The camera is 3 from the wall, and the light 1.
+  const char* script = R"(
+    Settings { @ width -> 1 height -> 1
+      camera -> Camera {
+        position -> vec3(0, 0, 0) pointing -> vec3(0, 0, 1) fov -> 0.1 aperture -> 0
+      }
+      lights -> [PointLight {
+        origin -> vec3(0, 0, 2) color -> rgb(1, 1, 1) falloff -> 0.5 ambient -> 0.25
+      }]
+    }
+    wall = Plane { normal -> vec3(0, 0, -1) position -> vec3(0, 0, 3)
+      material -> Material { color -> rgb(1, 0.5, 0) } }
+    Scene { wall })";
+  const auto wall = [&](const char* compat, ScriptOptions options = {}) {
+    std::string text = script;
+    text.replace(text.find('@'), 1, compat);
+    const crt::test::Run run = crt::test::run(text, options);
+    REQUIRE(run.result.scene);
+    return picture_of(*run.result.scene);
+  };
+  const Image of_2015 = wall("compat -> 2015 supersampling -> 1");
+  // A share of 0.5 / (3 + 1)^2 or 0.5 / 1^2 is diffuse.
+  check_close(of_2015.at(0, 0), {0.25 + 0.5 / 16, 0.25 + 0.25 / 16, 0.25, 1}, 2e-3);
+  check_close(wall("").at(0, 0), {0.25 + 0.5, 0.125 + 0.25, 0, 1}, 2e-3);
+  // Its files store light as it is, cut to steps.
+  CHECK(of_2015.to_rgba8()[2] == 63);
+}
+
 TEST_CASE("a colour above 1 sends back more light than comes") {
   check_close(pixel_of(scene_of("bright_colours.crt")),
               {0.5 * 162 / 102, 0.5 * 255 / 204, 0.25, 1});
@@ -269,7 +348,7 @@ TEST_CASE("the samples of a grid of 2015 lie at i / n - 1/2, across and down") {
   Scene scene = scene_of("grid.crt");
   const crt::Entity on_the_left = scene.entities[0];
   for (const Vec3& turn : {Vec3(0), Vec3(0, 0, -90)}) {
-    scene.entities[0] = on_the_left.transformed(crt::rotate(turn));
+    scene.entities[0] = on_the_left.transformed(crt::rotate_degrees(turn));
     scene.settings.compat = 2015;
     CHECK(pixel_of(scene).r == 0.75);
     scene.settings.compat = 0;

@@ -42,10 +42,10 @@ TEST_CASE("translate and scale do what they say") {
 }
 
 TEST_CASE("a quarter turn takes one axis exactly to the next") {
-  CHECK(apply(crt::rotate({0, 0, 90}), {1, 0, 0}) == Vec3(0, 1, 0));
-  CHECK(apply(crt::rotate({90, 0, 0}), {0, 1, 0}) == Vec3(0, 0, 1));
-  CHECK(apply(crt::rotate({0, 90, 0}), {0, 0, 1}) == Vec3(1, 0, 0));
-  CHECK(apply(crt::rotate({-90, 0, 0}), {0, 0, 1}) == Vec3(0, 1, 0));
+  CHECK(apply(crt::rotate_degrees({0, 0, 90}), {1, 0, 0}) == Vec3(0, 1, 0));
+  CHECK(apply(crt::rotate_degrees({90, 0, 0}), {0, 1, 0}) == Vec3(0, 0, 1));
+  CHECK(apply(crt::rotate_degrees({0, 90, 0}), {0, 0, 1}) == Vec3(1, 0, 0));
+  CHECK(apply(crt::rotate_degrees({-90, 0, 0}), {0, 0, 1}) == Vec3(0, 1, 0));
 }
 
 TEST_CASE("every multiple of 90 degrees is exact, however often it turns") {
@@ -53,7 +53,7 @@ TEST_CASE("every multiple of 90 degrees is exact, however often it turns") {
     const int turn = ((quarters % 4) + 4) % 4;
     const double cosine = turn == 0 ? 1 : (turn == 2 ? -1 : 0);
     const double sine = turn == 1 ? 1 : (turn == 3 ? -1 : 0);
-    const Transform rotation = crt::rotate({0, 0, 90.0 * quarters});
+    const Transform rotation = crt::rotate_degrees({0, 0, 90.0 * quarters});
     REQUIRE(rotation.row_x == Vec3(cosine, -sine, 0));
     REQUIRE(rotation.row_y == Vec3(sine, cosine, 0));
     REQUIRE(rotation.row_z == Vec3(0, 0, 1));
@@ -62,14 +62,15 @@ TEST_CASE("every multiple of 90 degrees is exact, however often it turns") {
 
 TEST_CASE("a rotation turns about x, then y, then z") {
   const Vec3 p(0.3, -0.7, 1.9);
-  const Vec3 one_by_one = apply(
-      crt::rotate({0, 0, 70}), apply(crt::rotate({0, -140, 0}), apply(crt::rotate({20, 0, 0}), p)));
-  CHECK(glm::distance(apply(crt::rotate({20, -140, 70}), p), one_by_one) < 1e-15);
+  const Vec3 one_by_one =
+      apply(crt::rotate_degrees({0, 0, 70}),
+            apply(crt::rotate_degrees({0, -140, 0}), apply(crt::rotate_degrees({20, 0, 0}), p)));
+  CHECK(glm::distance(apply(crt::rotate_degrees({20, -140, 70}), p), one_by_one) < 1e-15);
 }
 
 TEST_CASE("a rotation keeps lengths and handedness") {
   for (int i = 0; i < 1000; ++i) {
-    const Transform r = crt::rotate({i * 0.77, i * -1.31, i * 2.9});
+    const Transform r = crt::rotate_degrees({i * 0.77, i * -1.31, i * 2.9});
     REQUIRE(glm::length(r.row_x) == doctest::Approx(1).epsilon(1e-15));
     REQUIRE(std::abs(glm::dot(r.row_x, r.row_y)) < 1e-15);
     REQUIRE(glm::distance(glm::cross(r.row_x, r.row_y), r.row_z) < 1e-15);
@@ -77,7 +78,14 @@ TEST_CASE("a rotation keeps lengths and handedness") {
 }
 
 TEST_CASE("angles whole turns apart give equal bits") {
-  CHECK(crt::rotate({30, 45, 60}) == crt::rotate({30 + 360, 45 - 720, 60 + 36000}));
+  CHECK(crt::rotate_degrees({30, 45, 60}) == crt::rotate_degrees({30 + 360, 45 - 720, 60 + 36000}));
+}
+
+TEST_CASE("rotate, the name in version 1.0, still takes degrees") {
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+  CHECK(crt::rotate({30, 45, 60}) == crt::rotate_degrees({30, 45, 60}));
+#pragma GCC diagnostic pop
 }
 
 TEST_CASE("transforms that are not finite or flatten space are refused by name") {
@@ -89,12 +97,12 @@ TEST_CASE("transforms that are not finite or flatten space are refused by name")
   CHECK(rejected_argument([] { crt::scale(-1e-101); }) == "factor");
   CHECK(rejected_argument([] { crt::scale({1, 0, 1}); }) == "factors");
   CHECK(rejected_argument([] { crt::scale({1, 1, not_a_number}); }) == "factors");
-  CHECK(rejected_argument([] { crt::rotate({0, inf, 0}); }) == "degrees");
+  CHECK(rejected_argument([] { crt::rotate_degrees({0, inf, 0}); }) == "degrees");
 }
 
 TEST_CASE("transforms at their limits are accepted") {
   CHECK(crt::translate({1e100, -1e100, 0}).translation == Vec3(1e100, -1e100, 0));
   CHECK(crt::scale(1e-100).row_y.y == 1e-100);
   CHECK(crt::scale({-1e100, 1, 1}).row_x.x == -1e100);
-  CHECK(crt::rotate({1e300, 0, 0}).row_x == Vec3(1, 0, 0));
+  CHECK(crt::rotate_degrees({1e300, 0, 0}).row_x == Vec3(1, 0, 0));
 }

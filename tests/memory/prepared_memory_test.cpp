@@ -37,7 +37,8 @@ double ratio(std::uint64_t a, std::uint64_t b) {
 std::vector<Entity> mixed_entities(int count) {
   std::vector<Entity> entities = balls(count, 0.01);
   for (const Entity& ball : balls(count, 0.1, 2)) {
-    entities.push_back((ball - Box{.corner_a = {-5, 0, -5}}).transformed(rotate({10, 20, 30})));
+    entities.push_back(
+        (ball - Box{.corner_a = {-5, 0, -5}}).transformed(rotate_degrees({10, 20, 30})));
     entities.push_back(
         Entity(Cylinder{})
             .transformed(translate({0, 0.5 + static_cast<double>(entities.size()), 0})));

@@ -26,7 +26,7 @@ Scene rich_scene() {
       Entity(Box{.corner_a = {1, -1, -8}, .corner_b = {3, 1, -6}, .material = glass}) -
       Cylinder{.from = {2, -2, -7}, .to = {2, 2, -7}, .radius = 0.5});
   scene.entities.push_back(Entity(Torus{.radius = 2, .thickness = 0.4, .material = marble})
-                               .transformed(rotate({40, 30, 20}))
+                               .transformed(rotate_degrees({40, 30, 20}))
                                .transformed(translate({-3, 3, -6})));
   scene.entities.push_back(Entity(Cone{.material = mirror}).transformed(translate({3, 3, -7})));
   scene.entities.push_back(Entity(Plane{.position = {0, -5, 0}, .material = mirror}));

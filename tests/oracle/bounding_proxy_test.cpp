@@ -37,7 +37,7 @@ class PlacedTorus {
     if (random.integer(0, 1) == 0) {
       const double factor = random.power_of_ten(-2, 2);
       entity = entity.transformed(scale(Vec3(factor)))
-                   .transformed(rotate(180.0 * random.in_cube()))
+                   .transformed(rotate_degrees(180.0 * random.in_cube()))
                    .transformed(
                        translate(factor * ring * random.power_of_ten(-1, 2) * random.in_cube()));
     }

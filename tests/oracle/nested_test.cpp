@@ -37,7 +37,7 @@ Transform random_transform(SolidMaker& make) {
     case 2:
       return scale({make.real(0.5, 2), make.real(0.5, 2), make.real(0.5, 2)});
     default:
-      return rotate({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)});
+      return rotate_degrees({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)});
   }
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("rays that graze nested spheres hit or miss as the product without rou
       transforms.push_back(make.integer(0, 1) == 0 ? random_transform(make) : Transform{});
       if (transforms.back().row_x != Vec3(1, 0, 0)) {
         transforms.back() =
-            rotate({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)});
+            rotate_degrees({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)});
       }
     }
     PreparedTree scene(nested(Sphere{}, transforms, make.integer(0, 1) == 0), Precision::exact);
@@ -177,8 +177,8 @@ TEST_CASE("what is nested thousands deep is rounded beyond 1024 bits and goes on
   Entity entity = Sphere{.radius = 1};
   Entity other = entity;
   for (int i = 0; i < 3000; ++i) {
-    entity = entity.transformed(rotate({0.1 * i, 7, 0.3}));
-    other = (other + Sphere{.center = {1e9, 0, 0}}).transformed(rotate({0.1 * i, 7, 0.3}));
+    entity = entity.transformed(rotate_degrees({0.1 * i, 7, 0.3}));
+    other = (other + Sphere{.center = {1e9, 0, 0}}).transformed(rotate_degrees({0.1 * i, 7, 0.3}));
   }
   for (const Entity& deep : {entity, other}) {
     PreparedTree scene(deep, Precision::exact);

@@ -173,7 +173,7 @@ Transform random_transform(Counted& random) {
   const auto turned = [&] {
     const double x = unrounded ? quarter_turns() : angle_in_degrees();
     const double y = unrounded ? quarter_turns() : angle_in_degrees();
-    return rotate({x, y, unrounded ? quarter_turns() : angle_in_degrees()});
+    return rotate_degrees({x, y, unrounded ? quarter_turns() : angle_in_degrees()});
   };
   constexpr double spread = 4;  // of decades, up and down
   const auto factor = [&] {

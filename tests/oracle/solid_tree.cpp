@@ -84,7 +84,7 @@ Transform grid_transform(Counted& random) {
   if (random.integer(0, 2) > 0) return result;
   const double x = 90.0 * random.integer(0, 3);
   const double y = 90.0 * random.integer(0, 3);
-  result = rotate({x, y, 90.0 * random.integer(0, 3)});
+  result = rotate_degrees({x, y, 90.0 * random.integer(0, 3)});
   if (random.integer(0, 3) == 0)
     result = compose({.row_x = {1, -1, 0}, .row_y = {1, 1, 0}, .row_z = {0, 0, 1}}, result);
   if (random.integer(0, 3) == 0)

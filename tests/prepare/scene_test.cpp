@@ -161,7 +161,7 @@ TEST_CASE("a transformed ray meets a transformed entity where the plain ones mee
     const Transform steps[] = {
         scale(Vec3(make.real(0.3, 3), make.real(0.3, 3),
                    round % 2 == 0 ? make.real(0.3, 3) : -make.real(0.3, 3))),
-        rotate({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)}),
+        rotate_degrees({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)}),
         translate({make.real(-5, 5), make.real(-5, 5), make.real(-5, 5)})};
     std::vector<Entity> moved;
     for (Entity entity : one_of_each(1)) {
@@ -363,6 +363,11 @@ TEST_CASE("a wrong description is refused with the name of the field") {
   scene.settings.compat = 2014;
   CHECK(argument_of(scene) == "compat");
   scene = {};
+  scene.camera.lens_radius = -1;
+  CHECK(argument_of(scene) == "lens_radius");
+  scene.camera = {.aperture = 1, .lens_radius = 0.001};
+  CHECK(argument_of(scene) == "lens_radius");
+  scene = {};
   scene.background = PanoramaBackground{};
   CHECK(argument_of(scene) == "image");
   CHECK_THROWS_AS(SharedMaterial(Material{.reflectivity = 1.5}), Error);
@@ -397,6 +402,10 @@ TEST_CASE("prepare warns of a lens that has no effect, but not in scenes of 2015
   CHECK(prepare(scene).warnings() ==
         std::vector<std::string>{
             "the camera's aperture has no effect, as dofsamples is 1: all is sharp"});
+  scene.camera = {.position = {0, 0, -5}, .lens_radius = 0.01};
+  CHECK(prepare(scene).warnings() ==
+        std::vector<std::string>{
+            "the camera's lensradius has no effect, as dofsamples is 1: all is sharp"});
   scene.settings.compat = 2015;
   CHECK(prepare(scene).warnings().empty());
   scene.settings.compat = 0;

@@ -351,6 +351,6 @@ class Images(unittest.TestCase):
 
     def test_other_settings_change_how_it_is_written(self):
         image = small_scene().render()
-        brighter = image.with_settings(crt.Settings(gamma=2.2))
+        brighter = image.with_settings(crt.Settings(gamma=3))
         np.testing.assert_array_equal(brighter.pixels, image.pixels)
         self.assertGreater(brighter.to_rgba8().mean(), image.to_rgba8().mean())

@@ -69,6 +69,9 @@ class Scripts(unittest.TestCase):
         scene = crt.Scene.from_script(script, compat=2015, print=lines.append)
         self.assertEqual(lines, ["0.6599297847448217 true"])
         self.assertEqual(scene.settings.compat, 2015)
+        self.assertEqual(scene.settings.gamma, 1)
+        self.assertEqual(scene.settings.falloff_model, crt.FalloffModel.PATH)
+        self.assertEqual(scene.settings.ambient_model, crt.AmbientModel.LIGHT)
         self.assertEqual((scene.camera.aperture, scene.camera.focal_distance), (3, 0.5))
         with self.assertRaisesRegex(crt.Error, "compat"):
             crt.Scene.from_script(script, compat=2014)

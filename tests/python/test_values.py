@@ -33,7 +33,7 @@ class Values(unittest.TestCase):
     def test_8_bit_values_of_2015_are_cut(self):
         scene = crt.Scene(background=crt.Background(color=(0.999, 0.5, 1)))
         for compat, expected in ((0, [255, 128, 255, 255]), (2015, [254, 127, 255, 255])):
-            scene.settings = crt.Settings(width=1, height=1, compat=compat)
+            scene.settings = crt.Settings(width=1, height=1, gamma=1, compat=compat)
             self.assertEqual(scene.settings.compat, compat)
             self.assertEqual(scene.render().to_rgba8()[0, 0].tolist(), expected)
         with self.assertRaisesRegex(crt.Error, "compat"):
@@ -128,12 +128,24 @@ class Values(unittest.TestCase):
     def test_what_an_image_has_refuses_changes_that_would_be_lost(self):
         image = crt.Scene(settings=crt.Settings(width=2, height=2)).render()
         with self.assertRaisesRegex(AttributeError, "gamma cannot be assigned.*with_settings"):
-            image.settings.gamma = 2.2
+            image.settings.gamma = 1
         with self.assertRaises(AttributeError):
             image.stats.camera_rays = 0
         settings = copy.copy(image.settings)
-        settings.gamma = 2.2
-        self.assertEqual(image.with_settings(settings).settings.gamma, 2.2)
+        settings.gamma = 1
+        self.assertEqual(image.with_settings(settings).settings.gamma, 1)
+
+    def test_defaults_are_what_displays_expect(self):
+        settings = crt.Settings()
+        self.assertEqual(settings.gamma, 2.2)
+        self.assertEqual(settings.falloff_model, crt.FalloffModel.LIGHT)
+        self.assertEqual(settings.ambient_model, crt.AmbientModel.SURFACE)
+
+    def test_a_lens_has_one_radius(self):
+        scene = crt.Scene(camera=crt.Camera(lens_radius=0.25))
+        self.assertEqual((scene.camera.lens_radius, scene.camera.aperture), (0.25, 0))
+        with self.assertRaisesRegex(crt.Error, "lens_radius must be 0 where there is an aperture"):
+            scene.camera = crt.Camera(lens_radius=0.25, aperture=250)
 
     def test_a_representation_says_what_is_in_it(self):
         self.assertIn("fov=0.5", repr(crt.Camera(fov=0.5)))

@@ -125,7 +125,7 @@ Ray Placing::ray_at(const ConvexSolid& solid, Numbers& numbers) const {
 }
 
 std::vector<Placing> placings(Numbers& numbers) {
-  const Transform turn = rotate(numbers.point(180));
+  const Transform turn = rotate_degrees(numbers.point(180));
   const Transform shear{{1, 0.4, 0}, {0, 1, 0.3}, {0.2, 0, 1}, {0, 0, 0}};
   std::vector<Placing> places = {
       {"as it is", {}, 1},

@@ -115,7 +115,7 @@ TEST_CASE("a film of 100 u behind the start is met") {
 TEST_CASE("walks through plates that are turned and moved end, and miss none") {
   Numbers numbers(9);
   for (int i = 0; i < 60; ++i) {
-    Transform turn = rotate(numbers.point(180));
+    Transform turn = rotate_degrees(numbers.point(180));
     turn.translation = numbers.size(1, 1e4) * numbers.direction();
     std::vector<Entity> entities;
     const int plates = 5 + numbers.below(10);

@@ -112,6 +112,7 @@ TEST_CASE("the path to a light goes over all mirrors on the way") {
   scene.entities = {
       Plane{.normal = {0, 0, -1}, .position = {0, 0, 0}, .material = inert(0.5)},
       Plane{.normal = {0, 0, 1}, .position = {0, 0, -5}, .material = Material{.color = grey(1)}}};
+  scene.settings.falloff_model = FalloffModel::path;
   check_color(seen(scene, {0, 0, -3}, {0, 0, 0}), 1, 1, 1);
   scene.settings.falloff_model = FalloffModel::light;
   check_color(seen(scene, {0, 0, -3}, {0, 0, 0}), 9, 9, 9);

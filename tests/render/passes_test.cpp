@@ -222,7 +222,7 @@ TEST_CASE("what is smaller than a pixel is found beside what has been seen of it
   scene.lights = {glow(1)};
   scene.entities = {
       Box{.corner_a = {-30, -1.0 / 24, -1}, .corner_b = {30, 1.0 / 24, 1}, .material = inert()}};
-  scene.entities[0] = scene.entities[0].transformed(rotate({0, 0, 0.5}));
+  scene.entities[0] = scene.entities[0].transformed(rotate_degrees({0, 0, 0.5}));
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Image image = render(prepare(scene), {.seed = seed});
     for (int x = 0; x < 40; ++x) {
@@ -256,7 +256,7 @@ TEST_CASE("no wire that covers more than a 20th of a pixel vanishes, however it 
       const Entity bar = Box{.corner_a = {-24, -width / 2, -0.02},
                              .corner_b = {24, width / 2, 0.02},
                              .material = inert()};
-      scene.entities.push_back(bar.transformed(rotate({0, 0, 41})));
+      scene.entities.push_back(bar.transformed(rotate_degrees({0, 0, 41})));
     }
   }
   // A needle is wider than a pixel where it begins.

@@ -53,17 +53,18 @@ Scene solids(Numbers& numbers) {
     add(sphere());
     add(box());
     add(sphere().transformed(translate(numbers.point(2))));
-    add(box().transformed(rotate(numbers.point(180))));
+    add(box().transformed(rotate_degrees(numbers.point(180))));
     const Vec3 center = numbers.point(4);
     add(worn(Sphere{.center = center, .radius = 1}) -
         worn(Sphere{.center = center + 0.5 * numbers.direction(), .radius = 0.8}));
     const Entity torus = worn(Torus{.center = numbers.point(4), .radius = 1, .thickness = 0.3});
     add(torus);
-    add(torus.transformed(rotate(numbers.point(180))).transformed(scale(Vec3(0.7, 1.1, 1.3))));
+    add(torus.transformed(rotate_degrees(numbers.point(180)))
+            .transformed(scale(Vec3(0.7, 1.1, 1.3))));
     const Vec3 foot = numbers.point(4);
     add(worn(Cone{.from = foot, .to = foot + numbers.direction(), .radius = 0.5}));
     add(worn(Cylinder{.from = foot, .to = foot - 2.0 * numbers.direction(), .radius = 0.2})
-            .transformed(rotate(numbers.point(180))));
+            .transformed(rotate_degrees(numbers.point(180))));
     add(worn(Disc{.center = numbers.point(4), .normal = numbers.direction(), .radius = 0.8}));
     add(worn(Triangle{.a = numbers.point(4), .b = numbers.point(4), .c = numbers.point(4)})
             .transformed(scale(Vec3(1, 0.8, 1.2))));

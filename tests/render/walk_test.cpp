@@ -107,7 +107,7 @@ TEST_CASE("a walk by starts meets each place that crossings have: all kinds of s
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     Numbers numbers(13);
     std::vector<Entity> entities = {bumpy(numbers),
-                                    Entity(Torus{}).transformed(rotate(numbers.point(90))),
+                                    Entity(Torus{}).transformed(rotate_degrees(numbers.point(90))),
                                     // Two that share a face with others.
                                     Box{.corner_a = {1, -1, -1}, .corner_b = {2, 1, 1}},
                                     Box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}}};
@@ -131,8 +131,8 @@ TEST_CASE("a walk by starts meets each place that crossings have: instances") {
         (Entity(Box{}) - Entity(Sphere{.radius = 1.3})) + Entity(Sphere{.radius = 0.4});
     std::vector<Entity> entities;
     for (int i = 0; i < 40; ++i) {
-      entities.push_back(
-          die.transformed(rotate(numbers.point(180))).transformed(translate(numbers.point(5))));
+      entities.push_back(die.transformed(rotate_degrees(numbers.point(180)))
+                             .transformed(translate(numbers.point(5))));
     }
     RayQueries queries(prepared(entities, precision));
     for (int i = 0; i < 400; ++i) check_walk(queries, ray_through(numbers, 5));
@@ -142,7 +142,7 @@ TEST_CASE("a walk by starts meets each place that crossings have: instances") {
 TEST_CASE("light that is mirrored in a closed room never leaves it") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     Numbers numbers(15);
-    Transform turn = rotate(numbers.point(180));
+    Transform turn = rotate_degrees(numbers.point(180));
     turn.translation = {1e3, -1e2, 30};
     const Entity room =
         (Entity(Box{.corner_a = Vec3(-2), .corner_b = Vec3(2)}) -
@@ -168,7 +168,7 @@ TEST_CASE("light that is mirrored in a closed room never leaves it") {
 TEST_CASE("between points on the walls of a convex room nothing lies, also not on one wall") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     Numbers numbers(16);
-    const Transform turn = rotate(numbers.point(180));
+    const Transform turn = rotate_degrees(numbers.point(180));
     for (const Entity& hollow :
          {Entity(Box{.corner_a = Vec3(-1, -0.7, -1.3), .corner_b = Vec3(1.2, 1, 1)}),
           Entity(Sphere{.center = {0.1, 0, 0.2}, .radius = 1.4}),

@@ -264,6 +264,40 @@ TEST_CASE("a file has its content in its name, so that an older script keeps its
   }
 }
 
+TEST_CASE("settings are read as they were written, whatever the defaults of the script are") {
+  for (const int compat : {0, compat_2015}) {
+    for (const Settings& one : {Settings{}, settings_of_2015()}) {
+      Scene scene;
+      scene.settings = one;
+      scene.settings.compat = compat;
+      const Settings read = again(scene).settings;
+      CHECK(read.gamma == one.gamma);
+      CHECK(read.falloff_model == one.falloff_model);
+      CHECK(read.ambient_model == one.ambient_model);
+      CHECK(read.compat == compat);
+      // Only what is not the default is written.
+      const std::string text = source_code(scene, as_script).text;
+      const bool is_default = (compat == compat_2015) == (one.compat == compat_2015);
+      CHECK((text.find("gamma") == std::string::npos) == is_default);
+      CHECK((text.find("falloffmodel") == std::string::npos) == is_default);
+      CHECK((text.find("ambientmodel") == std::string::npos) == is_default);
+    }
+  }
+}
+
+TEST_CASE(
+    "a lens is read as it was written, in units or in thousandths, in scripts of both kinds") {
+  for (const int compat : {0, compat_2015}) {
+    for (const Camera& camera : {Camera{.lens_radius = 0.3}, Camera{.aperture = 12}, Camera{}}) {
+      Scene scene;
+      scene.settings.compat = compat;
+      scene.camera = camera;
+      CHECK(again(scene).camera.aperture == camera.aperture);
+      CHECK(again(scene).camera.lens_radius == camera.lens_radius);
+    }
+  }
+}
+
 TEST_CASE("what scripts of 2015 lack is refused in a scene of theirs") {
   Scene scene = scene_of(Entity(Sphere{}).transformed(translate({1, 2, 3})));
   scene.settings.compat = 2015;
@@ -276,7 +310,7 @@ TEST_CASE("what scripts of 2015 lack is refused in a scene of theirs") {
 TEST_CASE("entities with ids, materials and without a point keep their places") {
   Scene scene;
   scene.entities = {empty_entity(), Entity(Sphere{}).with_id(9).with_material(Material{}),
-                    Entity(Box{}).transformed(rotate({10, 20, 30}))};
+                    Entity(Box{}).transformed(rotate_degrees({10, 20, 30}))};
   const Scene read = again(scene);
   REQUIRE(read.entities.size() == 3);
   CHECK(read.entities[0].is_empty());

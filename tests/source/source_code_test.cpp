@@ -164,7 +164,7 @@ TEST_CASE("a mesh that needs its triangles without area is refused") {
 }
 
 TEST_CASE("transforms that doubles cannot say are rounded with a warning") {
-  const Entity turned = Entity(Sphere{}).transformed(rotate({10, 20, 30}));
+  const Entity turned = Entity(Sphere{}).transformed(rotate_degrees({10, 20, 30}));
   CHECK(source_code(turned).warnings.empty());
   const Entity twice = turned.transformed(scale(0.3));
   REQUIRE(source_code(twice).warnings.size() == 1);

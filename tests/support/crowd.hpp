@@ -42,7 +42,7 @@ inline Crowd crowd(Numbers& numbers, Precision precision) {
     crowd.targets.back().tube = size;
     // One copy coincides with it, and one is turned as well.
     if (i % 8 == 0) crowd.add(Sphere{.center = center, .radius = size}, center, size);
-    const Transform turned = rotate(numbers.point(180));
+    const Transform turned = rotate_degrees(numbers.point(180));
     if (i % 5 == 0) crowd.add(Entity(Sphere{.radius = size}).transformed(turned), Vec3(0), size);
   }
   for (int i = 0; i < 20; ++i) {
@@ -50,7 +50,7 @@ inline Crowd crowd(Numbers& numbers, Precision precision) {
     const double ring = numbers.size(0.1, 1.5);
     const double tube = ring * numbers.size(0.02, 1.5);
     const double factor = numbers.size(0.2, 3);
-    const Transform turned = rotate(numbers.point(180));
+    const Transform turned = rotate_degrees(numbers.point(180));
     const Vec3 axis = numbers.direction();
     Entity torus = Entity(Torus{.axis = axis, .radius = ring, .thickness = tube})
                        .transformed(scale(i % 4 == 0 ? Vec3(factor, 1, 1) : Vec3(factor)))
@@ -82,7 +82,7 @@ inline Crowd crowd(Numbers& numbers, Precision precision) {
     if (i % 3 == 2) {
       const Vec3 corner(radius, half_length, radius / 2);
       const Entity bar = Entity(Box{.corner_a = -corner, .corner_b = corner});
-      crowd.add(bar.transformed(rotate(numbers.point(180)))
+      crowd.add(bar.transformed(rotate_degrees(numbers.point(180)))
                     .transformed(scaled)
                     .transformed(translate(center)),
                 center, half_length);

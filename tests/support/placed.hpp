@@ -44,7 +44,7 @@ inline std::vector<Transform> some_steps(Numbers& numbers, double scale) {
   const Vec3 factors(numbers.size(0.1, 10), numbers.size(0.1, 10), numbers.size(0.1, 10));
   if (kind > 1) {
     steps = {kind == 2 ? crt::scale(numbers.size(0.1, 10)) : crt::scale(factors),
-             rotate(numbers.point(180))};
+             rotate_degrees(numbers.point(180))};
   }
   if (kind > 0) steps.push_back(moved);
   return steps;

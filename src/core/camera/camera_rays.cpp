@@ -26,6 +26,12 @@ Vec3 reference_up(const Vec3& forward) {
   return vertical ? Vec3(0, 0, 1) : Vec3(0, 1, 0);
 }
 
+/// Returns how far the lens reaches up and down, in units.
+double lens_height(const Camera& camera, int height, int compat) {
+  if (camera.lens_radius > 0) return camera.lens_radius;
+  return compat == compat_2015 ? camera.aperture / height : camera.aperture / 1000;
+}
+
 bool turns_across(Projection projection) {
   return projection == Projection::spherical || projection == Projection::cylindrical;
 }
@@ -40,7 +46,7 @@ CameraRays::CameraRays(const Camera& camera, int width, int height, int compat)
       width_(width),
       height_(height),
       focal_distance_(camera.focal_distance),
-      lens_radius_(compat == compat_2015 ? camera.aperture / height_ : camera.aperture / 1000) {
+      lens_radius_(lens_height(camera, height, compat)) {
   const Vec3 level_right = unit(glm::cross(reference_up(forward_), forward_));
   const Vec3 level_up = glm::cross(forward_, level_right);
   const double cosine = elementary::cos(camera.roll);
@@ -49,7 +55,8 @@ CameraRays::CameraRays(const Camera& camera, int width, int height, int compat)
   up_ = unit(cosine * level_up + sine * level_right);
 
   const double aspect = width_ / height_;
-  lens_right_ = compat == compat_2015 ? right_ / aspect : right_;
+  const bool is_round = compat != compat_2015 || camera.lens_radius > 0;
+  lens_right_ = is_round ? right_ : right_ / aspect;
   const double half_angle = camera.fov / 2;
   const double half_length = elementary::tan(half_angle);
   half_across_ = (turns_across(projection_) ? half_angle : half_length) * aspect;

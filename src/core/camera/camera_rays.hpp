@@ -30,8 +30,8 @@ using PicturePlaceLanes = PlanePointLanes;
 class CameraRays {
  public:
   /// Takes a camera whose values are valid (crt::validate), a picture of at least one pixel, and
-  /// Settings::compat. A lens of 2015 reaches aperture / width across and aperture / height up, in
-  /// units.
+  /// Settings::compat. With `aperture`, a lens of 2015 reaches aperture / width across and
+  /// aperture / height up, in units.
   CameraRays(const Camera& camera, int width, int height, int compat = 0);
 
   /// Returns the ray through the middle of the lens.

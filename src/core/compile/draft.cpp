@@ -14,7 +14,7 @@ Scene draft_of(Scene scene, int step) {
   settings.height = std::max(1, settings.height / step);
   settings.supersampling = settings.dof_samples = 1;
   settings.target_error = settings.time_budget = 0;
-  scene.camera.aperture = 0;
+  scene.camera.aperture = scene.camera.lens_radius = 0;
   return scene;
 }
 

@@ -260,6 +260,9 @@ void validate(const Camera& camera) {
     reject("fov", "must be less than half a turn (180 degrees, pi)");
   require_between("roll", camera.roll, -largest_factor, largest_factor);
   require_between("aperture", camera.aperture, 0, largest_coordinate);
+  require_between("lens_radius", camera.lens_radius, 0, largest_coordinate);
+  if (camera.aperture > 0 && camera.lens_radius > 0)
+    reject("lens_radius", "must be 0 where there is an aperture: both say how large the lens is");
   require_positive("focal_distance", camera.focal_distance, largest_coordinate);
 }
 

@@ -85,7 +85,7 @@ Transform scale(const Vec3& factors) {
   return {.row_x = {factors.x, 0, 0}, .row_y = {0, factors.y, 0}, .row_z = {0, 0, factors.z}};
 }
 
-Transform rotate(const Vec3& degrees) {
+Transform rotate_degrees(const Vec3& degrees) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(degrees[axis])) fail("degrees", "must be finite", degrees);
   }

@@ -26,7 +26,7 @@ Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& 
     features.patterns = features.patterns || material.pattern.has_value();
     features.bumps = features.bumps || material.bump.has_value();
   }
-  features.lens = scene.camera.aperture > 0 && scene.settings.dof_samples > 1;
+  features.lens = has_lens(scene.camera) && scene.settings.dof_samples > 1;
   return features;
 }
 

@@ -21,7 +21,7 @@ struct Features {
   bool absorption = false;    ///< some transparent material absorbs
   bool patterns = false;      ///< some material's colour is a pattern
   bool bumps = false;
-  bool lens = false;  ///< aperture > 0 and more than one sample of it
+  bool lens = false;  ///< has_lens() and more than one sample of it
   bool csg = false;
   /// The light that a surface lets through is multiplied by at most this. It is 1 if none brightens
   /// it.

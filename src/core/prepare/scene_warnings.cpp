@@ -21,8 +21,12 @@ void PreparedData::warn_of_no_light() {
 /// scene where the latter takes long to find out is not warned of.
 void PreparedData::warn_of_camera() {
   // In a scene of 2015 every camera has a lens.
-  if (scene_.camera.aperture > 0 && scene_.settings.dof_samples == 1 && scene_.settings.compat == 0)
-    warnings_.emplace_back("the camera's aperture has no effect, as dofsamples is 1: all is sharp");
+  const Camera& camera = scene_.camera;
+  if (has_lens(camera) && scene_.settings.dof_samples == 1 && scene_.settings.compat == 0) {
+    warnings_.push_back(
+        text::format("the camera's {} has no effect, as dofsamples is 1: all is sharp",
+                     camera.aperture > 0 ? "aperture" : "lensradius"));
+  }
   if (scene_.camera.projection == Projection::orthographic) return;
   constexpr std::uint64_t few_steps = 4096;
   const StepRules rules{.most = few_steps, .poll = {}};

@@ -65,13 +65,15 @@ class Writer:
             f" ambient -> {number(scene.ambient if index == 0 else 0)} }}"
             for index, light in enumerate(scene.lights))
         return f"""Settings {{
+  gamma -> 1
+  ambientmodel -> "light"
   recursiondepth -> {scene.depth}
   minweight -> 1.0 / 1024
   supersampling -> {scene.grid}
   dofsamples -> {scene.lens_samples}
 {projection}  camera -> Camera {{
     position -> {vector(camera.position)} pointing -> {vector(camera.pointing)} fov -> {number(fov)}
-    aperture -> {number(1000 * camera.aperture)} focaldistance -> {number(camera.focal_distance)}
+    lensradius -> {number(camera.aperture)} focaldistance -> {number(camera.focal_distance)}
     apertureshape -> "{camera.aperture_shape}"
   }}
   background -> {self.background()}

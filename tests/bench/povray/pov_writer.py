@@ -98,8 +98,8 @@ class Writer:
                 f" direction z * {number(length)} look_at {vector(camera.pointing)}{lens} }}")
 
     def material(self, material: Material) -> str:
-        """Writes a material. CRT's ambient light is not tinted by the surface, so it is divided by
-        the colour here."""
+        """Writes a material. CRT's ambient light is not tinted by the surface with the model that
+        crt_writer.py asks for, so it is divided by the colour here."""
         if material in self.materials:
             return self.materials[material]
         ambient = [0, 0, 0]

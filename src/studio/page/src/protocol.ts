@@ -41,6 +41,7 @@ export interface Camera {
   fov: number;
   roll: number;
   aperture: number;
+  lensRadius: number;
   focalDistance: number;
   projection: string;
   apertureShape: number;
