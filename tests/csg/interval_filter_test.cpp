@@ -133,11 +133,11 @@ class Trees {
       case 3:
         return Entity(Sphere{.center = {0, 0, 0}, .radius = radius})
             .transformed(scale(Vec3(1.5)))
-            .transformed(rotate({make_.real(-180, 180), 0, 0}))
+            .transformed(rotate_degrees({make_.real(-180, 180), 0, 0}))
             .transformed(translate(to_world(a)));
       default:
         return Entity(Box{.corner_a = Vec3(0), .corner_b = Vec3(2 * radius, radius, radius)})
-            .transformed(rotate({make_.real(-180, 180), 90.0 * make_.integer(0, 3), 0}))
+            .transformed(rotate_degrees({make_.real(-180, 180), 90.0 * make_.integer(0, 3), 0}))
             .transformed(translate(to_world(a)));
     }
   }

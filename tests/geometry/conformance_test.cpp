@@ -185,7 +185,8 @@ double tolerance(const core::ObjectRay& ray, double t) {
 TEST_CASE("what encloses a primitive along a line holds its crossings") {
   for_instances(400, [](const Primitive&, const core::Shape& shape, Random& random) {
     if (!shape.is_solid()) return;
-    const Transform moved = random.one_in(2) ? Transform{} : rotate(180.0 * random.in_cube());
+    const Transform moved =
+        random.one_in(2) ? Transform{} : rotate_degrees(180.0 * random.in_cube());
     const core::Placement placement{core::PreciseTransform(moved)};
     const auto box = core::place_box(shape, placement);
     const auto by_formula = shape.placed(placement);
