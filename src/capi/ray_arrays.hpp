@@ -82,7 +82,7 @@ class Rays {
   /// Throws if any ray is invalid, and names the first of them.
   void validate_all(const PreparedScene& scene) const {
     std::atomic<std::size_t> first_wrong = count_;
-    query_in_parallel(scene, count_, [&](RayQueries&, std::size_t first, std::size_t last) {
+    const auto check = [&](std::size_t first, std::size_t last) {
       for_pieces(first, last, [&](std::size_t begin, std::span<const Ray> rays) {
         if (begin > first_wrong) return;
         const std::size_t index = first_invalid(rays);
@@ -91,7 +91,14 @@ class Rays {
         while (begin + index < known && !first_wrong.compare_exchange_weak(known, begin + index)) {
         }
       });
-    });
+    };
+    if (count_ <= piece_size) {
+      check(0, count_);
+    } else {
+      query_in_parallel(scene, count_, [&](RayQueries&, std::size_t first, std::size_t last) {
+        check(first, last);
+      });
+    }
     if (first_wrong < count_) throw_error_of(first_wrong);
   }
 

@@ -19,6 +19,17 @@ class LeafOfHit {
 
   const Leaf& leaf() const { return *leaf_; }
   const Placement& placement() const { return *placement_; }
+  /// Returns the point of the hit, which `ray` found, in the leaf's space; u and v only if asked
+  /// for.
+  SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
+    const Crossing crossing{.t = hit.t,
+                            .error = hit.error,
+                            .face = hit.face,
+                            .root = 0,
+                            .entering = hit.entering != leaf_->complemented};
+    return leaf_->shape->surface_point(placement_->to_object(ray.origin, ray.direction), crossing,
+                                       with_uv);
+  }
 
  private:
   void place_instance(const CompiledScene& scene, const SceneObject& object);

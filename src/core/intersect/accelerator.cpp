@@ -115,19 +115,6 @@ MemoryUse Accelerator::memory() const {
   return use;
 }
 
-SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit,
-                                        bool with_uv) const {
-  const LeafOfHit in_place(compiled_, hit);
-  const Leaf& leaf = in_place.leaf();
-  const Crossing crossing{.t = hit.t,
-                          .error = hit.error,
-                          .face = hit.face,
-                          .root = 0,
-                          .entering = hit.entering != leaf.complemented};
-  return leaf.shape->surface_point(in_place.placement().to_object(ray.origin, ray.direction),
-                                   crossing, with_uv);
-}
-
 void Accelerator::prefetch_surface_points(std::span<const RayHit, packet_size> hits,
                                           RayMask some) const {
   constexpr std::size_t in_cache = 64;
@@ -164,7 +151,8 @@ bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit, RayWorkspace
   const bool is_known = ray.end_point.is_surface_of(hit);
   if (!is_known && hit.t < certain_end(ray.t_max, ray.end_error, ray.max_size_error)) return false;
   const LeafOfHit in_place(compiled_, hit);
-  const Vec3 normal = in_place.placement().normal_to_world(surface_point(ray, hit, false).normal);
+  const Vec3 normal =
+      in_place.placement().normal_to_world(in_place.surface_point(ray, hit, false).normal);
   const double slope = std::abs(glm::dot(normal, ray.direction));
   const double error = ray.end_error + size_error(ray, hit.object);
   const double distance = ray.t_max - hit.t;

@@ -82,10 +82,7 @@ class Accelerator {
   FaceSurface face_surface(const Leaf& leaf, std::uint32_t face) const {
     return leaf.surface_of(face, compiled_.face_surfaces);
   }
-  /// Returns the point of a hit that `ray` found, in the space of its leaf; u and v only if asked
-  /// for.
-  SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
-  /// Fetches beforehand what surface_point() looks at.
+  /// Fetches beforehand what the points of hits need.
   void prefetch_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
   /// Returns by how much more than its start_error and end_error a ray may be off the surfaces of
   /// an object at its start and end. That is only of input rays, whose starts nobody knows.

@@ -252,7 +252,7 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
                              HitPoint& point) const {
   const LeafOfHit in_place = placed_leaf(hit);
   const Placement& placement = in_place.placement();
-  const SurfacePoint surface = object_point(ray, hit, with_uv);
+  const SurfacePoint surface = object_point(in_place, ray, hit, with_uv);
   point.t = hit.t;
   point.position = placement.point_to_world(surface.position);
   point.object_position = surface.position;
@@ -271,9 +271,14 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
 
 SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit,
                                         bool with_uv) const {
-  SurfacePoint point = accelerator_->surface_point(ray, hit, with_uv);
+  return object_point(placed_leaf(hit), ray, hit, with_uv);
+}
+
+SurfacePoint PreparedData::object_point(const LeafOfHit& in_place, const WorldRay& ray,
+                                        const RayHit& hit, bool with_uv) {
+  SurfacePoint point = in_place.surface_point(ray, hit, with_uv);
   // A cutter's surface bounds what is left of the solid from the other side.
-  if (leaf(hit).complemented) point.normal = -point.normal;
+  if (in_place.leaf().complemented) point.normal = -point.normal;
   return point;
 }
 

@@ -16,6 +16,7 @@
 #include "core/csg/program.hpp"
 #include "core/intersect/answers.hpp"
 #include "core/intersect/ray_workspace.hpp"
+#include "core/intersect/spare_workspace.hpp"
 #include "core/prepare/features.hpp"
 #include "core/ray/object_ray.hpp"
 #include "core/ray/ray_packet.hpp"
@@ -234,6 +235,8 @@ class PreparedData {
   MemoryUse memory() const;
   /// Returns what the user should know of the scene, a line each.
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Returns a place for the workspace of whoever asks queries now and then.
+  SpareWorkspace& spare_workspace() const { return spare_workspace_; }
   /// Returns whether both share the geometry that rays meet.
   bool shares_geometry_with(const PreparedData& other) const {
     return geometry_ == other.geometry_;
@@ -241,6 +244,9 @@ class PreparedData {
 
  private:
   struct Geometry;
+
+  static SurfacePoint object_point(const LeafOfHit& in_place, const WorldRay& ray,
+                                   const RayHit& hit, bool with_uv);
 
   void warn_of_no_light();
   void warn_of_camera();
@@ -260,6 +266,7 @@ class PreparedData {
   InputTolerance input_tolerance_;
   std::vector<std::string> warnings_;
   double prepare_seconds_ = 0;
+  mutable SpareWorkspace spare_workspace_;
 };
 
 }  // namespace crt::core

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <new>
+#include <utility>
 
 #include "core/math/float_environment.hpp"
 #include "core/prepare/prepared_data.hpp"
@@ -73,6 +75,17 @@ class Query {
   const Ray& users_;
   WorldRay ray_;
 };
+
+/// Returns a hit as batches have it.
+PlainHit plain(const std::optional<Hit>& hit) {
+  if (!hit) return {};
+  return {.t = hit->t,
+          .normal = hit->normal,
+          .u = hit->u,
+          .v = hit->v,
+          .entity_id = hit->entity_id,
+          .side = hit->entering ? HitSide::entering : HitSide::leaving};
+}
 
 /// Throws if there are fewer places than rays.
 void check_places(std::size_t places, std::span<const Ray> rays) {
@@ -186,18 +199,22 @@ std::size_t first_invalid(const PreparedScene& scene, std::span<const RayStart> 
 
 class RayQueries::State {
  public:
-  explicit State(const PreparedScene& scene) : scene_(scene) {}
+  explicit State(const PreparedScene& scene)
+      : scene_(scene), work_(data().spare_workspace().take()) {}
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() { data().spare_workspace().keep(std::move(work_)); }
 
   core::Query query(const Ray& ray) {
     validate(ray);
-    return {scene_.data(), ray, work_};
+    return {scene_.data(), ray, *work_};
   }
   /// Writes answers into places of std::optional<Hit>, PlainHit, HitPart, FullHit, or Distances.
   template <class Answers>
   void intersect(const core::GivenRays& rays, const Answers& answers) {
     const core::FloatEnvironment ieee;
     core::answered([&] {
-      core::ask_in_packets(data(), rays, answers, work_,
+      core::ask_in_packets(data(), rays, answers, *work_,
                            [](core::QueryPacket& packet, auto some) { packet.nearest(some); });
     });
   }
@@ -205,17 +222,17 @@ class RayQueries::State {
     const core::FloatEnvironment ieee;
     core::answered([&] {
       core::ask_in_packets(
-          data(), rays, occluded, work_,
+          data(), rays, occluded, *work_,
           [](core::QueryPacket& packet, auto answers) { packet.occluded(answers); });
     });
   }
   std::vector<core::RayHit>& found() { return found_; }
   const core::PreparedData& data() const { return scene_.data(); }
-  core::RayWorkspace& work() { return work_; }
+  core::RayWorkspace& work() { return *work_; }
 
  private:
   PreparedScene scene_;
-  core::RayWorkspace work_;
+  std::unique_ptr<core::RayWorkspace> work_;
   std::vector<core::RayHit> found_;
 };
 
@@ -240,7 +257,11 @@ void RayQueries::intersect(std::span<const Ray> rays, std::span<std::optional<Hi
 }
 
 void RayQueries::intersect(std::span<const Ray> rays, std::span<PlainHit> hits) {
-  state_->intersect({rays}, hits);
+  if (rays.size() == 1 && hits.size() >= 1) {
+    hits[0] = core::plain(intersect(rays[0]));
+  } else {
+    state_->intersect({rays}, hits);
+  }
 }
 
 void RayQueries::parts(std::span<const Ray> rays, std::span<HitPart> parts) {
@@ -332,6 +353,10 @@ std::vector<Hit> crossings(const PreparedScene& scene, const Ray& ray) {
 void query_in_parallel(const PreparedScene& scene, std::size_t count, const RayBatchWork& work,
                        int threads) {
   if (!work) throw Error(ErrorCode::invalid_argument, "there is no work to do", "work");
+  if (count > 0 && count <= core::smallest_batch) {
+    RayQueries queries(scene);
+    return work(queries, 0, count);
+  }
   const std::size_t size = core::batch_size(count, core::allowed_threads(threads));
   const std::size_t batches = count / size + (count % size != 0 ? 1 : 0);
   core::answered([&] {
