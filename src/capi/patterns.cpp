@@ -10,22 +10,21 @@ namespace crt::capi {
 namespace {
 
 /// More patterns than so many within one another are refused, as they may be a circle.
-constexpr int most_nested_patterns = 5;
+constexpr int max_nested_patterns = 5;
 
 /// Returns the pattern in the place of a colour, if there is one.
 SharedPattern to_nested(const crt_pattern* pattern, const char* argument, int depth) {
   if (pattern == nullptr) return nullptr;
-  if (depth >= most_nested_patterns)
-    reject(argument, "has more than 5 patterns within one another");
+  if (depth >= max_nested_patterns) reject(argument, "has more than 5 patterns within one another");
   return nested(to_pattern(pattern, argument, depth + 1));
 }
 
 std::vector<ColorStop> to_stops(const crt_pattern& given) {
-  constexpr std::uint64_t most_stops = 64;
+  constexpr std::uint64_t max_stops = 64;
   std::vector<ColorStop> stops;
   if (given.color_count == 0) return stops;
   require(given.colors, "pattern.colors");
-  if (given.color_count > most_stops) reject("pattern.color_count", "must be at most 64");
+  if (given.color_count > max_stops) reject("pattern.color_count", "must be at most 64");
   for (std::uint64_t i = 0; i < given.color_count; ++i) {
     const crt_color_stop& stop = given.colors[i];
     stops.push_back({stop.position, to_color(stop.color, stop.alpha)});

@@ -163,14 +163,14 @@ class Farm {
                     ExitCode::files);
     }
     if (merged.missing.empty()) return;
-    constexpr std::size_t most_named = 20;
+    constexpr std::size_t max_named = 20;
     const std::size_t count = merged.missing.size();
     const auto* const first = merged.missing.data();
     reporter_.add(ErrorCode::io,
                   fmt::format("{} of {} tasks have no part: {}{}", count,
                               read_farm_plan(request_.target).tasks,
-                              fmt::join(first, first + std::min(count, most_named), ", "),
-                              count > most_named ? ", ..." : ""),
+                              fmt::join(first, first + std::min(count, max_named), ", "),
+                              count > max_named ? ", ..." : ""),
                   ExitCode::files);
   }
 

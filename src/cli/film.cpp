@@ -44,9 +44,9 @@ std::vector<std::string> arguments_for(const std::string& ending, const FilmShap
   add({"-f", "rawvideo", "-pixel_format", "rgb24"});
   add({"-video_size", fmt::format("{}x{}", shape.width, shape.height)});
   const bool is_gif = ending == ".gif";
-  constexpr double most_of_a_gif = 50;  // viewers take more for a mistake
+  constexpr double max_of_a_gif = 50;  // viewers take more for a mistake
   const double rate =
-      is_gif ? std::min(shape.frames_per_second, most_of_a_gif) : shape.frames_per_second;
+      is_gif ? std::min(shape.frames_per_second, max_of_a_gif) : shape.frames_per_second;
   add({"-framerate", fmt::format("{}", rate), "-i", "-"});
   if (is_gif) {
     // Each frame has 256 colours of its own.

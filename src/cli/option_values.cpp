@@ -146,10 +146,10 @@ FrameRange parse_frames(const std::string& text) {
     throw WrongValue("--frames", "FIRST-LAST, such as 0-99", text);
   }
   constexpr int largest_frame = 1'000'000'000;
-  constexpr int most_frames = 1'000'000;
-  if (frames.last > largest_frame || frames.last - frames.first >= most_frames) {
+  constexpr int max_frames = 1'000'000;
+  if (frames.last > largest_frame || frames.last - frames.first >= max_frames) {
     throw WrongValue("--frames",
-                     fmt::format("at most {} frames, none above {}", most_frames, largest_frame),
+                     fmt::format("at most {} frames, none above {}", max_frames, largest_frame),
                      text);
   }
   return frames;

@@ -104,7 +104,7 @@ struct TradeRequest : CommonRequest {
   std::optional<Region> region;
   double pixels = 30000;
   /// One setting, or one of the references, may take this many seconds for what is measured.
-  double most_seconds = 10;
+  double max_seconds = 10;
   /// A pixel of the references has this many samples, a power of 2.
   int reference_samples = 4096;
   int threads = 0;

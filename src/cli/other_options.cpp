@@ -64,8 +64,8 @@ CommandTable trade_table(TradeRequest& request) {
                   .help = fmt::format("leaves out settings that would take longer for these "
                                       "pixels, and ends each of the two reference renders then "
                                       "({:.0f})",
-                                      request.most_seconds),
-                  .take = into_positive("--most-seconds", request.most_seconds)});
+                                      request.max_seconds),
+                  .take = into_positive("--most-seconds", request.max_seconds)});
   rows.push_back({.names = "--reference-samples",
                   .type = "N",
                   .help = fmt::format("samples of a pixel of the references at most ({})",

@@ -85,10 +85,10 @@ Image render_scene(const Scene& scene, const PictureTask& task, Reporter& report
 }
 
 std::optional<std::string> warning_of(const Image& image) {
-  constexpr double most_in_a_good_picture = 0.03;
+  constexpr double max_in_a_good_picture = 0.03;
   const RenderStats& stats = image.stats();
   const auto ended = static_cast<double>(stats.rays_beyond_depth);
-  if (ended <= most_in_a_good_picture * static_cast<double>(stats.camera_rays)) return std::nullopt;
+  if (ended <= max_in_a_good_picture * static_cast<double>(stats.camera_rays)) return std::nullopt;
   return fmt::format("{} rays ended at recursiondepth {} and count as black: raise recursiondepth",
                      stats.rays_beyond_depth, image.settings().recursion_depth);
 }

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns how many tasks an array job may have. Slurm takes this number for the first too many.
-int most_in_array() {
+int max_in_array() {
   constexpr int usual = 1000;
   const Answer answer = ask_program({"scontrol", "show", "config"});
   std::istringstream lines(answer.text);
@@ -57,7 +57,7 @@ class Slurm {
   /// Writes the script of the array's elements. Each takes every so many-th line of the list.
   void write_scripts() {
     const auto count = static_cast<int>(driving_.tasks.size());
-    elements_ = std::min(count, most_in_array());
+    elements_ = std::min(count, max_in_array());
     write_file(job_ / "log/tasks.txt", fmt::format("{}\n", fmt::join(driving_.tasks, "\n")));
     const std::string work =
         fmt::format("{} farm work {} --quiet --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"",
@@ -116,7 +116,7 @@ class Slurm {
     Progress progress(request.target.string(), progress_style(request));
     constexpr std::chrono::milliseconds interval(500);
     int unanswered = 0;
-    constexpr int most_unanswered = 120;
+    constexpr int max_unanswered = 120;
     while (true) {
       if (driving_.interrupt.interrupted()) throw Error(ErrorCode::cancelled, "interrupted");
       const Answer answer = ask_program({"squeue", "--noheader", "--jobs=" + id});
@@ -125,7 +125,7 @@ class Slurm {
       if (answer.succeeded && answer.text.empty()) return;
       const bool is_forgotten = !answer.succeeded && ask_program({"scontrol", "ping"}).succeeded;
       if (is_forgotten) return;
-      if (unanswered > most_unanswered)
+      if (unanswered > max_unanswered)
         throw Error(ErrorCode::io, "Slurm does not answer; the job may still run");
       progress.update(farm_status(request.target).share());
       std::this_thread::sleep_for(interval);

@@ -120,7 +120,7 @@ class Trade {
           fmt::format(
               "nothing is done within {} s: give it more by --most-seconds, or less to do by "
               "--pixels, --region or --width and --height",
-              request_.most_seconds),
+              request_.max_seconds),
           ExitCode::usage);
       return;
     }
@@ -157,7 +157,7 @@ class Trade {
     std::set<Family> too_slow;
     for (const Rung& rung : ladder) {
       const bool is_hopeless = too_slow.contains(rung.family) ||
-                               rung.expected_samples * probe.seconds > 2 * request_.most_seconds;
+                               rung.expected_samples * probe.seconds > 2 * request_.max_seconds;
       const std::optional<RenderedParts> rendered = is_hopeless ? std::nullopt : render_often(rung);
       if (rendered) {
         report.rungs.push_back({.family = rung.family,
@@ -191,7 +191,7 @@ class Trade {
     for (const std::uint64_t further : {std::uint64_t{1}, std::uint64_t{2}}) {
       Settings settings = reference_settings(scene_.settings, request_.reference_samples,
                                              scene_.settings.seed + further);
-      settings.time_budget = request_.most_seconds;
+      settings.time_budget = request_.max_seconds;
       report.reference_depth = settings.recursion_depth;
       work_of_this_ = expected_reference_samples;
       renders.push_back(render_parts(settings));
@@ -213,17 +213,17 @@ class Trade {
   /// Renders once, or again if it is fast. The fastest run counts, as the machine may have had
   /// other things to do.
   std::optional<RenderedParts> render_often(const Rung& rung) {
-    constexpr int most_renders = 3;
-    const double long_enough = request_.most_seconds / 4;
+    constexpr int max_renders = 3;
+    const double long_enough = request_.max_seconds / 4;
     work_of_this_ = rung.expected_samples;
     deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                   std::chrono::duration<double>(request_.most_seconds));
+                                   std::chrono::duration<double>(request_.max_seconds));
     std::optional<RenderedParts> first = render_in_time(rung.settings);
     deadline_.reset();
     if (!first) return std::nullopt;
     RenderedParts best = std::move(*first);
     double seconds = best.seconds;
-    for (int i = 1; i < most_renders && seconds < long_enough; ++i) {
+    for (int i = 1; i < max_renders && seconds < long_enough; ++i) {
       RenderedParts again = render_parts(rung.settings);
       seconds += again.seconds;
       if (again.seconds < best.seconds) best = std::move(again);

@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr int format_version = 1;
-constexpr std::size_t most_manifest_bytes = std::size_t{32} << 20;
+constexpr std::size_t max_manifest_bytes = std::size_t{32} << 20;
 /// Pieces are the deepest: lists in lists of objects in a list. As many bytes have fewer values.
-constexpr text::JsonLimits manifest_limits{.depth = 6, .values = most_manifest_bytes};
+constexpr text::JsonLimits manifest_limits{.depth = 6, .values = max_manifest_bytes};
 
 constexpr std::pair<const char*, bool Aovs::*> aov_names[] = {
     {"depth", &Aovs::depth}, {"normal", &Aovs::normal}, {"id", &Aovs::id},
@@ -140,8 +140,8 @@ void check_frames(const Manifest& manifest) {
 }
 
 void read_tasks(const Json& list, Manifest& manifest) {
-  if (!list.is_array() || list.empty() || list.size() > std::size_t{most_tasks})
-    fail(text::format("there must be 1 to {} tasks", most_tasks));
+  if (!list.is_array() || list.empty() || list.size() > std::size_t{max_tasks})
+    fail(text::format("there must be 1 to {} tasks", max_tasks));
   manifest.tasks.reserve(list.size());
   for (const Json& given : list) {
     Task& task = manifest.tasks.emplace_back();
@@ -156,9 +156,9 @@ void read_tasks(const Json& list, Manifest& manifest) {
 }
 
 void read_picture(const Json& object, Manifest& manifest) {
-  constexpr int most_side = 65536;
-  manifest.width = whole_member(object, "width", 1, most_side);
-  manifest.height = whole_member(object, "height", 1, most_side);
+  constexpr int max_side = 65536;
+  manifest.width = whole_member(object, "width", 1, max_side);
+  manifest.height = whole_member(object, "height", 1, max_side);
   if (std::int64_t{manifest.width} * manifest.height > (std::int64_t{1} << 27))
     fail("a picture has at most 2^27 pixels");
   if (object.contains("seed")) manifest.seed = whole_member<std::uint64_t>(object, "seed", 0);
@@ -185,8 +185,8 @@ Manifest read(const Json& object) {
   if (!files.is_object()) fail("'files' must be an object");
   for (const auto& [name, digits] : files.items())
     manifest.files.emplace(inner_path(name), hash(digits));
-  constexpr int most_folders = 1000;
-  manifest.resource_folders = whole_member(object, "resource_folders", 0, most_folders);
+  constexpr int max_folders = 1000;
+  manifest.resource_folders = whole_member(object, "resource_folders", 0, max_folders);
   manifest.t = number(object, "t");
   manifest.variables = pairs(object, "variables");
   manifest.settings = pairs(object, "settings");
@@ -198,10 +198,10 @@ Manifest read(const Json& object) {
   if (object.contains("frames")) {
     const Json& frames = object.at("frames");
     if (!frames.is_array() || frames.size() != 2) fail("'frames' must have two numbers");
-    constexpr int most = std::numeric_limits<int>::max() - most_frames;
+    constexpr int most = std::numeric_limits<int>::max() - max_frames;
     manifest.frames = {.first = whole(frames[0], "frames", -most, most), .last = 0};
-    manifest.frames->last = whole(frames[1], "frames", manifest.frames->first,
-                                  manifest.frames->first + most_frames - 1);
+    manifest.frames->last =
+        whole(frames[1], "frames", manifest.frames->first, manifest.frames->first + max_frames - 1);
   }
   read_picture(object, manifest);
   read_tasks(member(object, "tasks"), manifest);
@@ -246,7 +246,7 @@ std::string to_text(const Manifest& manifest) {
 }
 
 Manifest parse_manifest(std::string_view text) {
-  if (text.size() > most_manifest_bytes) fail("it is too long");
+  if (text.size() > max_manifest_bytes) fail("it is too long");
   try {
     return read(text::parse_json(text, manifest_limits));
   } catch (const text::JsonError& error) {
@@ -268,7 +268,7 @@ fs::path Job::content_file(const std::string& hash) const {
 
 Job open_job(const fs::path& folder) {
   const std::vector<std::byte> bytes =
-      core::read_whole_file(folder / manifest_name, most_manifest_bytes);
+      core::read_whole_file(folder / manifest_name, max_manifest_bytes);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   try {
     return {.folder = folder, .id = core::sha256(bytes), .manifest = parse_manifest(text)};

@@ -45,8 +45,8 @@ struct Manifest {
   std::vector<Task> tasks{};
 };
 
-inline constexpr int most_tasks = 1'000'000;
-inline constexpr int most_frames = 1'000'000;
+inline constexpr int max_tasks = 1'000'000;
+inline constexpr int max_frames = 1'000'000;
 
 /// Returns the text of a manifest.
 std::string to_text(const Manifest& manifest);

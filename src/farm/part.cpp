@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t magic = 0x3170'6d72'6166'7472;  // "rtfarmp1" as bytes
 constexpr std::size_t longest_text = std::size_t{16} << 20;
-constexpr std::size_t most_channels = 16;
+constexpr std::size_t max_channels = 16;
 constexpr std::size_t longest_channel_name = 64;
 
 /// A picture has the least and the most of these.
@@ -127,7 +127,7 @@ std::vector<Number> read_values(std::size_t count, core::StateReader& in) {
 
 std::vector<ImageChannel> read_channels(std::size_t pixels, core::StateReader& in) {
   const std::size_t count = in.get<std::uint32_t>();
-  if (count > most_channels) in.fail();
+  if (count > max_channels) in.fail();
   std::vector<ImageChannel> channels(count);
   for (ImageChannel& channel : channels) {
     channel.name = FieldReader{in}.text(longest_channel_name);

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// So many frames of an animation are measured. The others are taken for what lies between.
-constexpr int most_probes = 8;
+constexpr int max_probes = 8;
 constexpr double seconds_of_longest = 1.3;  ///< tasks differ so much from their mean
 
 void refuse_if(bool is_so, const char* argument, const std::string& why) {
@@ -27,9 +27,8 @@ void refuse_if(bool is_so, const char* argument, const std::string& why) {
 }
 
 void check(const FarmOptions& options) {
-  refuse_if(
-      options.tasks < 0 || options.tasks > most_tasks, "tasks",
-      text::format("a job has 1 to {} tasks; 0 takes as many as are long enough", most_tasks));
+  refuse_if(options.tasks < 0 || options.tasks > max_tasks, "tasks",
+            text::format("a job has 1 to {} tasks; 0 takes as many as are long enough", max_tasks));
   refuse_if(!std::isfinite(options.least_seconds) || options.least_seconds <= 0, "least_seconds",
             "the least seconds of a task must be above 0");
   refuse_if(options.tile_width < 0 || options.tile_height < 0, "tile_width",
@@ -45,10 +44,10 @@ void check(const FarmOptions& options) {
   refuse_if(options.render.passes < 0, "passes", "passes must not be negative");
   if (!options.frames) return;
   const auto [first, last] = *options.frames;
-  constexpr int most = std::numeric_limits<int>::max() - most_frames;
+  constexpr int most = std::numeric_limits<int>::max() - max_frames;
   refuse_if(
-      first > last || first < -most || last > most || std::int64_t{last} - first >= most_frames,
-      "frames", text::format("the frames are first..last, at most {}", most_frames));
+      first > last || first < -most || last > most || std::int64_t{last} - first >= max_frames,
+      "frames", text::format("the frames are first..last, at most {}", max_frames));
 }
 
 /// Makes the folders of a job. Throws Error (io) if there is something.
@@ -130,7 +129,7 @@ class Planner {
   std::vector<int> measure_frames() {
     const auto [first, last] = frames_of(job_.manifest);
     std::vector<int> frames;
-    const int steps = std::min(most_probes - 1, last - first);
+    const int steps = std::min(max_probes - 1, last - first);
     for (int i = 0; i <= steps; ++i) {
       const double place = steps == 0 ? 0 : double{1} * (last - first) * i / steps;
       const int frame = first + static_cast<int>(std::lround(place));
@@ -208,7 +207,7 @@ class Planner {
     const double fitting = std::floor(seconds / (seconds_of_longest * options_.least_seconds));
     const int tasks = options_.tasks > 0
                           ? options_.tasks
-                          : static_cast<int>(std::clamp<double>(fitting, 1, most_tasks));
+                          : static_cast<int>(std::clamp<double>(fitting, 1, max_tasks));
     return {.tasks = tasks, .tile_width = options_.tile_width, .tile_height = options_.tile_height};
   }
 

@@ -7,7 +7,7 @@ namespace crt::farm {
 
 namespace {
 
-constexpr int most_side = 16384;
+constexpr int max_side = 16384;
 
 /// A SheetLayout has a cell for each frame, row by row.
 struct SheetLayout {
@@ -21,7 +21,7 @@ struct SheetLayout {
     const int frames = last - first + 1;
     columns = static_cast<int>(std::ceil(std::sqrt(double{1} * frames)));
     rows = (frames + columns - 1) / columns;
-    const int widest = std::max(1, std::min(cell, most_side / columns));
+    const int widest = std::max(1, std::min(cell, max_side / columns));
     const int longest = std::max(manifest.width, manifest.height);
     const double scale = std::min(1.0, double{1} * widest / longest);
     cell_width = std::max(1, static_cast<int>(scale * manifest.width));

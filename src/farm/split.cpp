@@ -12,7 +12,7 @@ namespace {
 
 // A task has pieces in several places of a picture. So what a map does not show of one is made up
 // by the others. Small pieces cost more, as they have a margin.
-constexpr int most_pieces_of_task = 16;
+constexpr int max_pieces_of_task = 16;
 constexpr std::int64_t least_pixels_of_piece = 256;
 
 /// A frame is not cut where that would make a piece of less than this share of a task.
@@ -92,7 +92,7 @@ void add_frame(const CostMap& map, int frame, std::span<const TaskShare> takers,
   const std::int64_t fitting =
       pixels / least_pixels_of_piece / static_cast<std::int64_t>(takers.size());
   const auto rounds =
-      static_cast<std::size_t>(std::clamp<std::int64_t>(fitting, 1, most_pieces_of_task));
+      static_cast<std::size_t>(std::clamp<std::int64_t>(fitting, 1, max_pieces_of_task));
   // In every round the tasks have another order. Else a task would have the same corner of each
   // area, whose pieces may all be dearer than the map says.
   std::minstd_rand random;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t indentation = 4;
 /// Lines are not moved further in than this, so that no text grows beyond measure.
-constexpr std::size_t most_indentation = 160;
+constexpr std::size_t max_indentation = 160;
 /// A comment behind code stands at least so far from it.
 constexpr std::size_t least_before_comment = 2;
 /// Comments are not put into a common column further right than this.
@@ -70,7 +70,7 @@ class Writer {
     Line& line = lines_.emplace_back();
     line.blank_before = pieces_[first].lines_before > 1 && lines_.size() > 1;
     const std::size_t indent = indent_of(first);
-    line.code.assign(std::min(indent, most_indentation), ' ');
+    line.code.assign(std::min(indent, max_indentation), ' ');
     std::size_t i = first;
     for (; i < pieces_.size() && (i == first || pieces_[i].lines_before == 0); ++i) {
       const Piece& piece = pieces_[i];

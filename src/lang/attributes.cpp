@@ -214,9 +214,9 @@ void convert(const Given& given, Context& context, std::variant<Color, Pattern>&
 void convert(const Given& given, Context& context, std::vector<ColorStop>& field) {
   const std::vector<Value>& items = get<List>(given)->items;
   // The core refuses more stops than a few. Here they must only not be copied by the million.
-  constexpr std::size_t most_items = 1000;
+  constexpr std::size_t max_items = 1000;
   field.clear();
-  for (std::size_t i = 0; i < std::min(items.size(), most_items); ++i) {
+  for (std::size_t i = 0; i < std::min(items.size(), max_items); ++i) {
     const List* stop = std::get_if<List>(&items[i]);
     double storage = 0;
     const bool is_pair = stop && (*stop)->items.size() == 2;

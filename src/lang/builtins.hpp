@@ -56,7 +56,7 @@ struct Builtin {
   /// The signature is as the reference writes it: "clamp(x, low, high)".
   std::string_view signature;
   std::size_t least_arguments = 0;
-  std::size_t most_arguments = 0;
+  std::size_t max_arguments = 0;
   Value (*function)(const Arguments&) = nullptr;
 };
 

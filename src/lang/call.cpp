@@ -69,7 +69,7 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
 [[gnu::noinline]] Value Interpreter::call_builtin(const Expression& expression, const Call& call,
                                                   const Builtin& builtin) {
   const std::size_t count = call.arguments.size();
-  if (count < builtin.least_arguments || count > builtin.most_arguments) {
+  if (count < builtin.least_arguments || count > builtin.max_arguments) {
     fail(expression.span, "wrong number of arguments, {}: {}", count, builtin.signature);
   }
   const ArgumentsGuard guard(arguments_);

@@ -20,7 +20,7 @@ using lang::printable;
 constexpr std::size_t widest_line = 160;
 constexpr std::size_t shown_before_mark = 60;
 /// So many calls are shown, and the rest is only counted.
-constexpr std::size_t most_calls_shown = 10;
+constexpr std::size_t max_calls_shown = 10;
 
 std::string head(const Diagnostic& diagnostic) {
   const char* kind = diagnostic.severity == Severity::error ? "error" : "warning";
@@ -102,7 +102,7 @@ std::string to_json(const Diagnostic& diagnostic) {
 
 std::string format_diagnostic(const Diagnostic& diagnostic) {
   std::string result = head(diagnostic) + excerpt(diagnostic);
-  const std::size_t shown = std::min(diagnostic.calls.size(), most_calls_shown);
+  const std::size_t shown = std::min(diagnostic.calls.size(), max_calls_shown);
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [name, place] = diagnostic.calls[i];
     result += text::format("  in '{}', called at {}:{}:{}\n", printable(name),

@@ -138,11 +138,11 @@ std::string Files::read_text(Found found, std::size_t most_bytes, Span span) con
 }
 
 std::uint64_t Files::most_pixels() {
-  if (most_pixels_ == 0) {
+  if (max_pixels_ == 0) {
     const std::uint64_t given = options_.limits.image_pixels;
-    most_pixels_ = given == 0 ? std::max<std::uint64_t>(affordable_image_pixels(), 1) : given;
+    max_pixels_ = given == 0 ? std::max<std::uint64_t>(affordable_image_pixels(), 1) : given;
   }
-  return most_pixels_;
+  return max_pixels_;
 }
 
 void Files::pass_pixel_limit(Span span, const std::string& message) {
@@ -249,12 +249,12 @@ std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::pat
   MeshesByWay& meshes = meshes_[found.path];
   const auto known = meshes.find(way);
   if (known != meshes.end()) return known->second;
-  constexpr std::size_t most_ways = 16;
-  if (meshes.size() == most_ways) {
+  constexpr std::size_t max_ways = 16;
+  if (meshes.size() == max_ways) {
     throw Failure{.span = span,
                   .message = text::format("'{}' is smoothed, filled, welded or stitched in more "
                                           "than {} different ways",
-                                          abbreviated(name), most_ways),
+                                          abbreviated(name), max_ways),
                   .code = ErrorCode::limit};
   }
   return made_of_file(span, [&] {

@@ -105,8 +105,8 @@ class Files {
   std::map<std::filesystem::path, MeshesByWay> meshes_;
   std::map<std::filesystem::path, std::shared_ptr<const Font>> fonts_;
   std::map<std::filesystem::path, std::shared_ptr<const HeightGrid>> heights_;
-  std::uint64_t most_pixels_ = 0;  ///< that pictures may have together; 0 until it is known
-  std::uint64_t pixels_ = 0;       ///< that they have
+  std::uint64_t max_pixels_ = 0;  ///< that pictures may have together; 0 until it is known
+  std::uint64_t pixels_ = 0;      ///< that they have
 };
 
 /// Returns the whole of a regular file, or nothing if it cannot be read or has more than

@@ -19,8 +19,8 @@ namespace {
 using Token = Grammar::token;
 
 /// So many brackets may wait to be closed. The parser takes no more.
-constexpr std::size_t most_open_brackets = 1000;
-constexpr std::size_t most_forgotten_brackets = 8;
+constexpr std::size_t max_open_brackets = 1000;
+constexpr std::size_t max_forgotten_brackets = 8;
 /// No name needs to be longer.
 constexpr std::size_t longest_name = 255;
 
@@ -194,7 +194,7 @@ Grammar::symbol_type Lexer::sign(Token::token_kind_type kind) {
 }
 
 Grammar::symbol_type Lexer::opening(Token::token_kind_type kind) {
-  if (open_brackets_.size() < most_open_brackets) open_brackets_.push_back(token_span());
+  if (open_brackets_.size() < max_open_brackets) open_brackets_.push_back(token_span());
   return sign(kind);
 }
 
@@ -231,7 +231,7 @@ Grammar::symbol_type Lexer::closing(Token::token_kind_type kind, char opening_br
   // Brackets that were opened within this pair and never closed are forgotten with it. They are at
   // most a few, as the closing bracket may have no partner.
   const std::size_t size = open_brackets_.size();
-  for (std::size_t i = size; i > size - std::min(size, most_forgotten_brackets); --i) {
+  for (std::size_t i = size; i > size - std::min(size, max_forgotten_brackets); --i) {
     if (text(open_brackets_[i - 1])[0] != opening_bracket) continue;
     const Span partner = open_brackets_[i - 1];
     if (opening_bracket == '{' && i > 1 && !shallower_close_ && first_on_line_) {

@@ -14,7 +14,7 @@ namespace {
 using Terminal = Grammar::token;
 
 /// No more modifiers can lie within one another.
-constexpr std::size_t most_open_modifiers = 1000;
+constexpr std::size_t max_open_modifiers = 1000;
 
 struct Word {
   std::string_view text;
@@ -151,8 +151,7 @@ bool Lexer::may_begin_statement() const {
 
 Grammar::symbol_type Lexer::less() {
   if (!modifier_follows()) return sign(Terminal::LESS);
-  if (open_modifiers_.size() < most_open_modifiers)
-    open_modifiers_.push_back(open_brackets_.size());
+  if (open_modifiers_.size() < max_open_modifiers) open_modifiers_.push_back(open_brackets_.size());
   return sign(Terminal::MODIFIER_START);
 }
 

@@ -21,7 +21,7 @@ void Reporter::error(const Failure& failure) {
   for (const auto& [name, span] : failure.calls)
     diagnostic.calls.emplace_back(name, sources_.place(span));
   diagnostics_.push_back(std::move(diagnostic));
-  if (++error_count_ >= most_errors_) throw GiveUp{};
+  if (++error_count_ >= max_errors_) throw GiveUp{};
 }
 
 void Reporter::error(Span span, std::string message, ErrorCode code) {
@@ -29,7 +29,7 @@ void Reporter::error(Span span, std::string message, ErrorCode code) {
 }
 
 void Reporter::warning(Span span, std::string message) {
-  if (warned_.size() >= most_errors_ || !warned_.emplace(span.begin, message).second) return;
+  if (warned_.size() >= max_errors_ || !warned_.emplace(span.begin, message).second) return;
   diagnostics_.push_back(make(Severity::warning, span, std::move(message), ErrorCode::script));
 }
 

@@ -39,7 +39,7 @@ struct GiveUp {};
 class Reporter {
  public:
   Reporter(const SourceMap& sources, std::size_t most_errors)
-      : sources_(sources), most_errors_(most_errors) {}
+      : sources_(sources), max_errors_(most_errors) {}
 
   /// Adds an error. Throws GiveUp when there are as many errors as the caller wants to see.
   void error(const Failure& failure);
@@ -58,7 +58,7 @@ class Reporter {
   Diagnostic make(Severity severity, Span span, std::string message, ErrorCode code) const;
 
   const SourceMap& sources_;
-  std::size_t most_errors_;
+  std::size_t max_errors_;
   std::size_t error_count_ = 0;
   std::set<std::pair<std::uint32_t, std::string>> warned_;
   std::vector<Diagnostic> diagnostics_;

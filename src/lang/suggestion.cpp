@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t longest_word = 64;
 /// A script may have millions of names, of which only the first so many are tried.
-constexpr std::size_t most_candidates = 10'000;
+constexpr std::size_t max_candidates = 10'000;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
   std::string_view best;
   // A third of the letters may be wrong. In words of one or two letters only the case may be.
   std::size_t best_distance = word.size() / 3 + 1;
-  for (std::size_t i = 0; i < std::min(candidates.size(), most_candidates); ++i) {
+  for (std::size_t i = 0; i < std::min(candidates.size(), max_candidates); ++i) {
     const std::string_view candidate = candidates[i];
     if (candidate == word || candidate.size() > longest_word) continue;
     const std::size_t edits = text::edit_distance(wanted, text::in_small_letters(candidate));

@@ -26,16 +26,16 @@ struct Lettering {
 
 void warn_of_missing(const std::u32string& letters, const ObjectSite& site) {
   if (letters.empty()) return;
-  constexpr std::size_t most_shown = 8;
+  constexpr std::size_t max_shown = 8;
   std::string shown;
-  for (const char32_t letter : letters.substr(0, most_shown)) {
+  for (const char32_t letter : letters.substr(0, max_shown)) {
     shown += text::format("{}U+{:04X}", shown.empty() ? "" : ", ", static_cast<unsigned>(letter));
   }
   site.context.reporter.warning(
       find_given(site.attributes, "text")->value_span,
       text::format("the font has no letter for {} character{} of 'text': {}{}", letters.size(),
                    letters.size() == 1 ? "" : "s", shown,
-                   letters.size() > most_shown ? ", ..." : ""));
+                   letters.size() > max_shown ? ", ..." : ""));
 }
 
 Value nothing(const ObjectSite& site, std::string_view attribute, std::string_view reason) {

@@ -14,7 +14,7 @@ namespace crt::service {
 namespace {
 
 /// Imports within imports are followed so far.
-constexpr std::size_t most_imports = 1000;
+constexpr std::size_t max_imports = 1000;
 constexpr std::size_t all_errors = std::numeric_limits<std::size_t>::max();
 
 std::filesystem::path canonical_or_given(const std::filesystem::path& path) {
@@ -62,7 +62,7 @@ bool Program::parse(const lang::Source& source) {
 
 /// Parses an imported script when it is met first. A script is run only once, so later it is none.
 const lang::Script* Program::import_script(const lang::Import& import) {
-  if (scripts_.size() >= most_imports) return nullptr;
+  if (scripts_.size() >= max_imports) return nullptr;
   try {
     const lang::Span span = import.path_span;
     if (lang::is_library_path(import.path)) return import_library(import);

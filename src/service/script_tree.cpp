@@ -14,7 +14,7 @@ namespace {
 using lang::Expression;
 
 /// Names that stand for names that stand for names are followed so far.
-constexpr int most_names = 20;
+constexpr int max_names = 20;
 
 const char* sign_of(lang::BinaryOperator op) {
   return op == lang::BinaryOperator::add         ? "+"
@@ -189,7 +189,7 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
   /// Says whether a value looks like an entity, a material or a list of such: not like a number.
   bool may_be_entity(const Expression& expression) const {
     const Expression* value = &expression;
-    for (int names = 0; value && names < most_names;) {
+    for (int names = 0; value && names < max_names;) {
       if (std::holds_alternative<lang::ObjectLiteral>(value->node) ||
           std::holds_alternative<lang::Modified>(value->node))
         return true;

@@ -1,5 +1,5 @@
 // Entities are described for those who show a scene as a tree.
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 #include "crt/source_code.hpp"
 #include "source/shapes.hpp"
 #include "text/format.hpp"

@@ -12,7 +12,7 @@ namespace crt::source {
 namespace {
 
 /// Longer texts get a name.
-constexpr std::size_t most_inline = 80;
+constexpr std::size_t max_inline = 80;
 
 /// Lists what a node is directly made of.
 std::vector<const EntityNode*> children(const EntityNode& node) {
@@ -83,13 +83,13 @@ std::string EntityWriter::write(const Entity& entity) {
       continue;
     }
     std::string text = value(*step.node);
-    const bool is_named = uses_[step.node] > 1 || text.size() > most_inline;
+    const bool is_named = uses_[step.node] > 1 || text.size() > max_inline;
     if (!program_.syntax().is_c() && is_named && step.node != &entity.node())
       text = program_.define("entity", "Entity", text);
     written_[step.node] = std::move(text);
   }
   std::string& text = written_[&entity.node()];
-  if (!program_.syntax().is_c() && uses_[&entity.node()] > 1 && text.size() > most_inline)
+  if (!program_.syntax().is_c() && uses_[&entity.node()] > 1 && text.size() > max_inline)
     text = program_.define("entity", "Entity", text);
   return text;
 }
@@ -137,7 +137,7 @@ std::string EntityWriter::operation(const CsgOperation& operation) {
 std::string EntityWriter::chain(const std::vector<std::string>& parts, const char* sign) {
   std::string text = parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) {
-    if (text.size() > most_inline) text = program_.define("entity", "Entity", text);
+    if (text.size() > max_inline) text = program_.define("entity", "Entity", text);
     text = text::format("({} {} {})", text, sign, parts[i]);
   }
   return text;

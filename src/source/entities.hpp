@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 #include "source/program.hpp"
 
 namespace crt::source {

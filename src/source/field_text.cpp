@@ -20,7 +20,7 @@ using core::FieldOperation;
 class FieldWriter {
  public:
   FieldWriter(std::size_t most_bytes, bool names_parts)
-      : most_bytes_(most_bytes), names_parts_(names_parts) {}
+      : max_bytes_(most_bytes), names_parts_(names_parts) {}
 
   /// Returns the statements that name parts, and the coordinates among the operands: "x, z".
   const std::string& statements() const { return statements_; }
@@ -36,11 +36,11 @@ class FieldWriter {
     const auto found = texts_.find(&node);
     if (found != texts_.end()) return found->second;
     std::string text = written(node);
-    if (text.size() > most_bytes_) {
+    if (text.size() > max_bytes_) {
       throw Error(ErrorCode::limit,
-                  text::format("a field would be longer than {} bytes", most_bytes_));
+                  text::format("a field would be longer than {} bytes", max_bytes_));
     }
-    if (names_parts_ && text.size() > most_inline) {
+    if (names_parts_ && text.size() > max_inline) {
       const std::string name = text::format("part_{}", ++parts_);
       statements_ += text::format("    {} = {}\n", name, text);
       text = name;
@@ -140,9 +140,9 @@ class FieldWriter {
     return text::format("({} {} {})", text(*node.a), sign, text(*node.b));
   }
 
-  static constexpr std::size_t most_inline = 80;
+  static constexpr std::size_t max_inline = 80;
 
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   bool names_parts_;
   std::map<const FieldNode*, std::string> texts_;
   std::array<bool, 3> uses_{};

@@ -52,9 +52,9 @@ std::string image_file_name(Program& program, const Image& image) {
 }
 
 std::optional<std::string> heights_file_name(Program& program, const HeightGrid& grid) {
-  constexpr std::uint32_t most_in_text = 4096;
+  constexpr std::uint32_t max_in_text = 4096;
   const std::uint32_t columns = grid.columns();
-  if (std::uint64_t{columns} * grid.rows() <= most_in_text) return std::nullopt;
+  if (std::uint64_t{columns} * grid.rows() <= max_in_text) return std::nullopt;
   Image image(static_cast<int>(columns), static_cast<int>(grid.rows()));
   for (std::uint32_t row = 0; row < grid.rows(); ++row) {
     for (std::uint32_t column = 0; column < columns; ++column) {

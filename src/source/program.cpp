@@ -47,19 +47,19 @@ std::string plain_name(const std::string& name) {
 
 void Program::require_space(std::size_t numbers) const {
   constexpr std::size_t least_bytes = 2;  // a digit and a comma
-  if (numbers > most_bytes_ / least_bytes) refuse();
+  if (numbers > max_bytes_ / least_bytes) refuse();
 }
 
 void Program::grow(std::size_t bytes) {
   bytes_ += bytes;
-  if (bytes_ > most_bytes_) refuse();
+  if (bytes_ > max_bytes_) refuse();
 }
 
 void Program::refuse() const {
   throw Error(
       ErrorCode::limit,
       text::format(
-          "the source code would be longer than {} bytes{}", most_bytes_,
+          "the source code would be longer than {} bytes{}", max_bytes_,
           syntax_.is_script() ? "" : ": load large meshes and images from their files instead"));
 }
 

@@ -14,7 +14,7 @@ namespace crt::source {
 class Program {
  public:
   explicit Program(const SourceOptions& options)
-      : syntax_(options.language), most_bytes_(options.most_bytes), name_(options.name) {}
+      : syntax_(options.language), max_bytes_(options.most_bytes), name_(options.name) {}
 
   const Syntax& syntax() const { return syntax_; }
 
@@ -85,7 +85,7 @@ class Program {
   };
 
   Syntax syntax_;
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   std::size_t bytes_ = 0;
   std::map<std::string, int> numbers_;
   std::map<const void*, std::string> known_;

@@ -44,7 +44,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
     const char c = text[i];
     if (c == '"' && !is_escaped) is_quoted = !is_quoted;
     is_escaped = is_quoted && c == '\\' && !is_escaped;
-    if (result.size() - line >= most_columns && place != std::string::npos) {
+    if (result.size() - line >= max_columns && place != std::string::npos) {
       result.replace(place, 1, "\n" + std::string(indent, ' '));
       line = place + 1;
       place = std::string::npos;
@@ -77,12 +77,12 @@ std::string Syntax::boolean(bool value) const {
 std::string Syntax::text(const std::string& content) const {
   if (is_script() && !text::is_utf8(content))
     throw Error(ErrorCode::unsupported, "a text is not UTF-8, which scripts are written in");
-  const std::size_t most_in_a_piece = is_script() ? std::string::npos : 72;
+  const std::size_t max_in_a_piece = is_script() ? std::string::npos : 72;
   std::string result = "\"";
   std::size_t piece = 0;
   for (const char c : content) {
     const auto byte = static_cast<unsigned char>(c);
-    if (piece >= most_in_a_piece && (byte < 0x80 || byte >= 0xc0)) {
+    if (piece >= max_in_a_piece && (byte < 0x80 || byte >= 0xc0)) {
       result += "\"\n      \"";
       piece = 0;
     }

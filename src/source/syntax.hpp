@@ -13,7 +13,7 @@
 namespace crt::source {
 
 /// Lines of code end at this column where a list can be broken.
-inline constexpr std::size_t most_columns = 96;
+inline constexpr std::size_t max_columns = 96;
 
 class Syntax {
  public:

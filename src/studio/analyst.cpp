@@ -30,7 +30,7 @@ void Analyst::set_script(Revision revision) {
 
 bool Analyst::ask(Question question) {
   const std::lock_guard lock(mutex_);
-  if (!has_script_ || questions_.size() >= most_questions) return false;
+  if (!has_script_ || questions_.size() >= max_questions) return false;
   questions_.push_back(std::move(question));
   changed_.notify_all();
   return true;

@@ -29,7 +29,7 @@ using Question = std::function<void(const Analysis&)>;
 
 class Analyst {
  public:
-  static constexpr std::size_t most_questions = 64;
+  static constexpr std::size_t max_questions = 64;
 
   /// Takes what is called with each revision, in the analyst's thread:
   /// first to say what its tokens are, then what is wrong with it. `failed` gets the reason if

@@ -29,7 +29,7 @@ struct DeskEvents {
 class Desk {
  public:
   /// So many messages may wait, and so many bytes of them before the last.
-  static constexpr std::size_t most_messages = 64;
+  static constexpr std::size_t max_messages = 64;
   static constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
   /// Throws std::system_error if there is no thread to be had.
@@ -47,7 +47,7 @@ class Desk {
  private:
   void work();
   std::optional<std::string> next();
-  bool has_room() const { return messages_.size() < most_messages && bytes_ < most_bytes; }
+  bool has_room() const { return messages_.size() < max_messages && bytes_ < most_bytes; }
 
   const DeskEvents events_;
   std::mutex mutex_;

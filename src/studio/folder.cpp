@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 namespace {
 
 /// More scripts than this are not listed, nor are folders looked into that lie deeper.
-constexpr std::size_t most_listed = 1000;
+constexpr std::size_t max_listed = 1000;
 constexpr int deepest_listed = 3;
-constexpr std::size_t most_looked_at = 20000;
+constexpr std::size_t max_looked_at = 20000;
 /// No path is longer that the system knows.
 constexpr std::size_t longest_name = 4096;
 
@@ -181,7 +181,7 @@ std::vector<std::string> Folder::scripts() const {
   constexpr auto options = fs::directory_options::skip_permission_denied;
   std::size_t looked_at = 0;
   for (fs::recursive_directory_iterator place(path_, options, failed), end;
-       !failed && place != end && names.size() < most_listed && ++looked_at < most_looked_at;
+       !failed && place != end && names.size() < max_listed && ++looked_at < max_looked_at;
        place.increment(failed)) {
     if (place.depth() >= deepest_listed || place->path().filename().string().starts_with('.'))
       place.disable_recursion_pending();

@@ -30,9 +30,9 @@ constexpr int looking_pause = 9;
 /// A job is asked in this interval whether it has ended.
 constexpr milliseconds end_interval{8};
 /// So many pictures may be on their way to the page.
-constexpr std::uint32_t most_on_their_way = 2;
+constexpr std::uint32_t max_on_their_way = 2;
 /// A script prints so many lines at most.
-constexpr int most_lines = 1000;
+constexpr int max_lines = 1000;
 
 bool are_equal(const Camera& a, const Camera& b) {
   return a.position == b.position && a.pointing == b.pointing && a.fov == b.fov &&
@@ -195,8 +195,8 @@ bool Renderer::run_script() {
   options.t = options_.t;
   options.go_on = [this] { return !script_is_old(); };
   options.print = [&](std::string_view line) {
-    if (++lines < most_lines) events_.print(std::string(line));
-    if (lines == most_lines) events_.print("...");
+    if (++lines < max_lines) events_.print(std::string(line));
+    if (lines == max_lines) events_.print("...");
   };
   ScriptResult result = crt::run_script(*revision_.text, revision_.name, options);
   if (script_is_old()) return false;
@@ -359,7 +359,7 @@ void Renderer::say(Phase phase, double progress, std::string message) const {
 
 /// Says whether the page has taken so many pictures that another may go. The mutex is locked.
 bool Renderer::has_taken() const {
-  return pictures_ < std::uint64_t{acknowledged_} + most_on_their_way;
+  return pictures_ < std::uint64_t{acknowledged_} + max_on_their_way;
 }
 
 bool Renderer::may_send() const {

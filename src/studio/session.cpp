@@ -128,7 +128,7 @@ std::unique_ptr<Response> answer_to(const Request& request, const Shared& shared
       return refuse(http::status::forbidden, "The token is wrong.");
     if (!websocket::is_upgrade(request))
       return refuse(http::status::upgrade_required, "This is a WebSocket.");
-    if (shared.clients() >= shared.options.most_clients)
+    if (shared.clients() >= shared.options.max_clients)
       return refuse(http::status::service_unavailable, "Too many pages are open.");
     return nullptr;
   }

@@ -42,9 +42,9 @@ constexpr std::chrono::seconds handshake_timeout{10};
 constexpr std::chrono::seconds request_timeout{30};
 constexpr std::chrono::seconds response_timeout{120};
 /// What comes behind the last answer is taken up to here.
-constexpr std::size_t most_drained_bytes = std::size_t{1} << 20;
+constexpr std::size_t max_drained_bytes = std::size_t{1} << 20;
 /// A browser that does not take what it is sent is left.
-constexpr std::size_t most_waiting_bytes = std::size_t{256} << 20;
+constexpr std::size_t max_waiting_bytes = std::size_t{256} << 20;
 
 struct Shared;
 
@@ -209,7 +209,7 @@ class Socket : public Session, public std::enable_shared_from_this<Socket<Kind>>
   void send(SocketMessage message) {
     waiting_bytes_ += message.bytes.size();
     waiting_.push_back(std::move(message));
-    if (waiting_bytes_ > most_waiting_bytes) return end();
+    if (waiting_bytes_ > max_waiting_bytes) return end();
     if (waiting_.size() == 1) write();
   }
 
@@ -319,7 +319,7 @@ class Visit : public Session, public std::enable_shared_from_this<Visit<Kind>> {
   /// Takes what still comes, for a while. Else the system would tell the other side that it was
   /// lost, and that side might then forget what it was answered.
   void drain() {
-    if (drained_bytes_ > most_drained_bytes) return;
+    if (drained_bytes_ > max_drained_bytes) return;
     buffer_.clear();
     lowest().async_read_some(buffer_.prepare(longest_header),
                              [self = this->shared_from_this()](Code failed, std::size_t size) {

@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<const char*, 8> channels = {"color", "depth",  "normal",  "id",
                                                  "part",  "albedo", "samples", "error"};
 /// Boxes are computed for so many entities, of so many primitives together.
-constexpr std::size_t most_boxes = 2000;
+constexpr std::size_t max_boxes = 2000;
 constexpr std::uint64_t most_primitives = 100'000;
 /// Regions end here. No picture is larger.
 constexpr int largest_side = 65536;
@@ -89,9 +89,9 @@ json boxes_json(const View& view) {
   std::uint64_t primitives = 0;
   for (const Entity& entity : view.scene.entities) {
     primitives += entity.primitive_count();
-    if (boxes.size() == most_boxes || primitives > most_primitives) break;
+    if (boxes.size() == max_boxes || primitives > most_primitives) break;
     add_box(boxes, entity);
-    for (const Entity& cutter : cutters(entity, most_boxes - cut_boxes.size()))
+    for (const Entity& cutter : cutters(entity, max_boxes - cut_boxes.size()))
       add_box(cut_boxes, cutter);
   }
   return {{"revision", view.revision.number},

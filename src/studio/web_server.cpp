@@ -102,7 +102,7 @@ class WebServer::State {
       if (!acceptor_.is_open()) return;
       if (failed) return accept_later();
       accept();  // first, as what follows may fail
-      if (shared_->sessions.size() >= shared_->options.most_connections) make_way();
+      if (shared_->sessions.size() >= shared_->options.max_connections) make_way();
       Code ignored;
       socket.set_option(tcp::no_delay(true), ignored);
       transport().begin(std::move(socket), shared_);

@@ -59,9 +59,9 @@ struct WebServerOptions {
   /// Pages of this machine may show the page in a frame, as notebooks do.
   bool may_be_framed = false;
   /// Where there are more, one of those ends that have not shown the token.
-  std::size_t most_connections = 64;
+  std::size_t max_connections = 64;
   /// Those count that have not come to their end yet, too.
-  std::size_t most_clients = 16;
+  std::size_t max_clients = 16;
   std::size_t longest_message = std::size_t{16} << 20;
 };
 

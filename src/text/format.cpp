@@ -67,12 +67,12 @@ class Writer {
   /// small.
   void write_shortest(std::string_view scientific) {
     constexpr int least_plain = -4;
-    constexpr int most_plain = 15;
+    constexpr int max_plain = 15;
     const std::size_t mark = scientific.find('e');
     const std::size_t sign = mark + (scientific[mark + 1] == '+' ? 2 : 1);
     int exponent = 0;
     std::from_chars(scientific.data() + sign, scientific.data() + scientific.size(), exponent);
-    if (exponent < least_plain || exponent > most_plain) {
+    if (exponent < least_plain || exponent > max_plain) {
       to_ += scientific;
       return;
     }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double step = 1.0 / 255;
 /// Rays through a flat pixel may differ by this much, in any channel.
-constexpr double most_of_flat = 2 * step;
+constexpr double max_of_flat = 2 * step;
 /// So many rays in a row and in a column of a pixel decide its class.
 constexpr int rays_across = 32;
 constexpr std::uint64_t first_seed_of_truth = 1001;
@@ -125,7 +125,7 @@ PixelClass class_at(const Neighbourhood& all, int x, int y, bool is_blurred,
   const auto any_entity = [&](const auto& is_so) {
     return std::any_of(rays.entities.begin(), rays.entities.end(), is_so);
   };
-  if (farthest(rays.low, rays.high) <= most_of_flat) return PixelClass::flat;
+  if (farthest(rays.low, rays.high) <= max_of_flat) return PixelClass::flat;
   if (is_blurred) return PixelClass::defocused;
   if (any_entity([&](std::uint32_t id) { return id >= interest.first && id <= interest.last; })) {
     return PixelClass::special;

@@ -58,8 +58,8 @@ class Session {
   explicit Session(Input input) : input_(input) {}
 
   void run() {
-    constexpr int most_calls = 200;
-    for (int i = 0; i < most_calls && !input_.empty(); ++i) call(input_.below(32));
+    constexpr int max_calls = 200;
+    for (int i = 0; i < max_calls && !input_.empty(); ++i) call(input_.below(32));
   }
 
  private:

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/compile/surface_table.hpp"
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 #include "crt/query.hpp"
 
 using namespace crt;

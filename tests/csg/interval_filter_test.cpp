@@ -116,7 +116,7 @@ class Trees {
   Entity other_leaf() {
     const Vec3 a = point();
     const double radius = size_in_world(coordinate(make_.integer(2, 4)));
-    switch (make_.integer(0, 4)) {
+    switch (make_.integer(0, 3)) {
       case 0:
         return Capsule{.from = to_world(a),
                        .to = to_world(a + make_.grid_point() + Vec3(0, 0, 7)),
@@ -128,11 +128,7 @@ class Trees {
                      .thickness = size_in_world(make_.integer(1, 3))};
       case 2:
         return Entity(Sphere{.center = {0, 0, 0}, .radius = radius})
-            .transformed(scale(Vec3(1, 0.5 * make_.integer(1, 3), 2)))
-            .transformed(translate(to_world(a)));
-      case 3:
-        return Entity(Sphere{.center = {0, 0, 0}, .radius = radius})
-            .transformed(scale(Vec3(1.5)))
+            .transformed(scale(make_.integer(0, 1) == 0 ? Vec3(1.5) : Vec3(1, 0.5, 2)))
             .transformed(rotate_degrees({make_.real(-180, 180), 0, 0}))
             .transformed(translate(to_world(a)));
       default:
@@ -276,8 +272,8 @@ class Comparison {
 
   void compare_change(const WorldRay& ray, const CsgHit* hit, Counts& counts) {
     const FilterLine<double> line = line_of(ray);
-    const bool on_surface = ray.start.surface != nothing;
-    const BoundaryChanges<double> change = program().filter.first_changes<double>(
+    const bool on_surface = ray.start.surface != invalid_index;
+    const BoundaryTransitions<double> change = program().filter.first_transitions<double>(
         {.lines = line,
          .limits = ray.t_max,
          .asked = 1,

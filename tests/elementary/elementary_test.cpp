@@ -22,7 +22,7 @@ namespace {
 using namespace crt;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double most_error = 0.5001;  // of a unit in the last place
+constexpr double max_error = 0.5001;  // of a unit in the last place
 
 using Truth = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr);
 using Function = double (*)(double, double);
@@ -182,7 +182,7 @@ TEST_CASE("the functions are within 0.5001 units in the last place of the true v
     CAPTURE(found[i].x);
     CAPTURE(found[i].y);
     INFO("the largest error is " << found[i].error);
-    CHECK(found[i].error <= most_error);
+    CHECK(found[i].error <= max_error);
     CHECK(found[i].error > 0.4);  // otherwise nothing was measured
   }
 }
@@ -201,8 +201,8 @@ TEST_CASE("angles beside multiples of a quarter of a turn are as true, and so ar
   for (const double x : angles) {
     CAPTURE(x);
     for (std::size_t i = 0; i < 3; ++i) {
-      REQUIRE(oracle.error(subjects()[i], x, 0) <= most_error);
-      REQUIRE(oracle.error(subjects()[i], -x, 0) <= most_error);
+      REQUIRE(oracle.error(subjects()[i], x, 0) <= max_error);
+      REQUIRE(oracle.error(subjects()[i], -x, 0) <= max_error);
     }
   }
 }

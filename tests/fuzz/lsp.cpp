@@ -64,8 +64,8 @@ void ask_everywhere(Client& client, const std::string& text) {
   item["version"] = 1;
   item["text"] = text;
   client.notify("textDocument/didOpen", {{"textDocument", item}});
-  constexpr std::size_t most_places = 2;
-  const std::size_t step = text.size() / most_places + 1;
+  constexpr std::size_t max_places = 2;
+  const std::size_t step = text.size() / max_places + 1;
   for (std::size_t i = 0; i <= text.size(); i += step) {
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
     const json params = {{"textDocument", document},

@@ -287,7 +287,8 @@ TEST_CASE("rays that start into a cylinder or a cone leave it where its enclosur
       const FilterLine<double> line = line_of(ray);
       Enclosure<double> part;
       ++all;
-      if (!enclosed->enclose(line, true, nullptr, part) || !enclosed->goes_into(hit.face, line))
+      if (!enclosed->enclose(line, true, nullptr, part) ||
+          !enclosed->starts_inwards(hit.face, line))
         continue;
       if (!(part.enter_to <= line.certain_from && part.leave_from > line.certain_from)) continue;
       ++known;

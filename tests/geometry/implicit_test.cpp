@@ -220,8 +220,8 @@ TEST_CASE("implicit: wild fields are entered and left by turns, as f says where 
 
 TEST_CASE("implicit: the work along a line is bounded") {
   Random random(9);
-  const core::FieldSearchLimits limits{.most_evaluations = 200, .shortest = 0x1p-52};
-  constexpr std::uint32_t most_left_open = 120;
+  const core::FieldSearchLimits limits{.max_evaluations = 200, .shortest = 0x1p-52};
+  constexpr std::uint32_t max_left_open = 120;
   for (int i = 0; i < 2000; ++i) {
     const core::FieldProgram program(random_field_of(random, 5, true));
     const core::FieldLine line(program, {core::Interval{0, 0}, {0, 0}, {0, 0}},
@@ -229,14 +229,14 @@ TEST_CASE("implicit: the work along a line is bounded") {
     core::FieldSearch search(line, limits);
     search.search(-1, 1);
     search.finish(-1, 1);
-    REQUIRE(search.evaluations() <= 4 * limits.most_evaluations + most_left_open);
+    REQUIRE(search.evaluations() <= 4 * limits.max_evaluations + max_left_open);
   }
   // There are 3183 roots in this box.
   const core::CrossingList list =
       crossings({sin(10000 * x), Vec3(-0.5), Vec3(0.5)}, {{-2, 0, 0}, {}, {1, 0, 0}});
   CHECK(list.undecided == 1);
   CHECK(list.size() % 2 == 0);
-  CHECK(list.size() <= core::FieldSearch::most_roots + 2);
+  CHECK(list.size() <= core::FieldSearch::max_roots + 2);
 }
 
 TEST_CASE("implicit: where a hard part takes all the work, what comes after it is still found") {

@@ -48,8 +48,8 @@ scripts=('*.sh' '*.py' '*.rs' '*.cmake' '*.cmake.in' '*CMakeLists.txt' dev .ci/r
 recorded='^tests/abi/(1\.0|older/older_crt\.h)' # kept as it was released
 
 # A folder of src/core uses those before it in this list, and itself.
-layers=(base simd math ray tasks sampling geometry csg shading camera compile accel intersect
-  prepare render image mesh_files contours left_out)
+layers=(base simd math ray tasks sampling geometry entity csg shading camera compile accel intersect
+  prepare queries render image mesh_files contours left_out)
 check_layers() {
   local position later
   for position in "${!layers[@]}"; do
@@ -107,6 +107,17 @@ check_umbrella() {
     esac
     grep -qF "#include <crt/${header##*/}>" include/crt/crt.hpp || echo "$header is not in crt.hpp"
   done
+}
+
+# What a primitive is, its own folder knows. Meshes have facets besides, and two kinds of solids
+# also stand for others as bounds.
+check_kinds() {
+  lines_with '^#include "core/geometry/[a-z_]+/' 'src/core/*' |
+    without '^src/core/geometry/|"core/geometry/(mesh/|(sphere|frustum)/enclose\.hpp)'
+  lines_with '\b(get|get_if|holds_alternative)<(const )?(Sphere|Box|Plane|HalfPlane|Cylinder)\b' \
+    'src/core/*'
+  lines_with '\b(get|get_if|holds_alternative)<(const )?(Cone|Capsule|Torus|Disc|Triangle)\b' \
+    'src/core/*'
 }
 
 limit_of_lines=450
@@ -188,7 +199,9 @@ check_subjects() {
 # The gallery's scripts may have lamps in their pictures.
 banned_words=(told are_told leaf_told has_company company_width 'outlines?' Verdict 'judges?'
   'lamps?' 'eye rays?' 'eye-rays?' FirstBalls BallSearch Spine CsgSketch RayBundle small_things
-  leaf_tree box_row node_paths going_on go_back users_rays expect_points squared_speed)
+  leaf_tree box_row node_paths going_on go_back users_rays expect_points squared_speed
+  no_face no_item no_arc Stay Stayed BoundaryChanges ChangeCrossing change_of comes_back goes_into
+  EnclosedSolid TypedShape plain_sphere)
 check_words() {
   lines_with "\b($(IFS='|' && echo "${banned_words[*]}"))\b" \
     'src/*' 'include/*' 'python/*' 'tests/*' 'docs/*.md' 'README.md' 'CONTRIBUTING.md' |
@@ -242,6 +255,7 @@ lines_with '^#include "studio/(session|tls)\.hpp"' "${code[@]}" |
   without '^src/studio/(main|session|tls|web_server)\.cpp:' |
   complain "Boost or OpenSSL seen outside the studio's server"
 tracked '*.y' '*.re' | without '^src/lang/' | complain "Bison or re2c outside src/lang"
+check_kinds | complain "A primitive's kind is known outside of its folder: ask the shape"
 check_public_only | complain "Only crt/*.hpp may be seen from here"
 tracked 'src/*.cpp' | xargs -r -d '\n' awk -f tests/house/twins.awk |
   complain "Two functions of a folder have one name"

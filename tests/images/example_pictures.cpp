@@ -76,7 +76,7 @@ std::vector<ExamplePicture> example_pictures() {
 
 Scene small_scene(const ExamplePicture& picture) {
   constexpr int largest_width = 160;
-  constexpr int most_dof_samples = 9;
+  constexpr int max_dof_samples = 9;
   constexpr int least_samples = 4;  // of a picture with a target error
   constexpr int most_samples = 16;
 
@@ -101,7 +101,7 @@ Scene small_scene(const ExamplePicture& picture) {
       std::any_of(picture.options.settings.begin(), picture.options.settings.end(),
                   [](const auto& setting) { return setting.first == "supersampling"; });
   if (!asked_for) settings.supersampling = 1;
-  settings.dof_samples = std::min(settings.dof_samples, most_dof_samples);
+  settings.dof_samples = std::min(settings.dof_samples, max_dof_samples);
   settings.min_samples = least_samples;
   settings.max_samples = most_samples;
   return scene;

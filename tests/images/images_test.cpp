@@ -64,8 +64,8 @@ Image render_in_quarters(const PreparedScene& scene, int width, int height) {
 TEST_CASE("each example looks like its reference, and any threads and regions give the same bits") {
   // These bounds are in 8-bit steps. A reference is as an older version made it, if a change since
   // then moved an edge or two by a pixel. A mistake moves far more.
-  constexpr double most_rmse = 1.5;
-  constexpr double most_visible = 0.002;
+  constexpr double max_rmse = 1.5;
+  constexpr double max_visible = 0.002;
 
   const auto hashes = read_hashes();
   for (const ExamplePicture& picture : example_pictures()) {
@@ -78,8 +78,8 @@ TEST_CASE("each example looks like its reference, and any threads and regions gi
     const Image image = render(prepared, {.threads = 1});
     const Difference difference = compare(image, reference);
     CHECK(difference.same_size);
-    CHECK(difference.rmse <= most_rmse);
-    CHECK(difference.share_of_visible <= most_visible);
+    CHECK(difference.rmse <= max_rmse);
+    CHECK(difference.share_of_visible <= max_visible);
 
     const std::string hash = pixel_hash(image);
     REQUIRE(hashes.count(picture.name) == 1);
@@ -90,8 +90,8 @@ TEST_CASE("each example looks like its reference, and any threads and regions gi
     }
     CHECK(pixel_hash(render_in_quarters(prepared, image.width(), image.height())) == hash);
 
-    const bool alike = difference.same_size && difference.rmse <= most_rmse &&
-                       difference.share_of_visible <= most_visible &&
+    const bool alike = difference.same_size && difference.rmse <= max_rmse &&
+                       difference.share_of_visible <= max_visible &&
                        hash == hashes.at(picture.name);
     if (!alike) keep_for_inspection(picture, image, reference);
   }

@@ -234,7 +234,7 @@ TEST_CASE("transparent solids keep apart whose boxes do not touch") {
         .leaf = hit.leaf, .face = hit.face, .surface = hit.surface, .side = Side::inside};
     const bool enters = accelerator.entered_isolated(start) == 0;
     start.side = Side::outside;
-    CHECK(accelerator.entered_isolated(start) == nothing);
+    CHECK(accelerator.entered_isolated(start) == invalid_index);
     return enters;
   };
   const Entity sphere = Entity(Sphere{}).with_material(glass);
@@ -273,7 +273,7 @@ TEST_CASE("where all surfaces pass by a box, the same solids hold all of its poi
     RayWorkspace work;
     std::vector<RayHit> exits;
     const auto holders_of = [&](const Vec3& point) {
-      data.surrounding({.origin = point, .direction = numbers.direction()}, exits, work);
+      data.containing_solids({.origin = point, .direction = numbers.direction()}, exits, work);
       std::vector<std::uint32_t> objects;
       for (const RayHit& exit : exits) objects.push_back(exit.object);
       std::sort(objects.begin(), objects.end());

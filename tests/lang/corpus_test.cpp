@@ -54,19 +54,19 @@ std::string without_folder(std::string text, const fs::path& folder) {
 
 void describe(const crt::Diagnostic& diagnostic, const fs::path& script,
               std::vector<std::string>& lines) {
-  constexpr std::size_t most_calls = 4;
+  constexpr std::size_t max_calls = 4;
   const crt::SourcePlace& place = diagnostic.place;
   const std::string file =
       place.file == script.string() ? "" : without_folder(place.file, script.parent_path()) + ":";
   lines.push_back(fmt::format(
       "-- {} {}{}:{}: {}", diagnostic.severity == crt::Severity::error ? "error" : "warning", file,
       place.line, place.column, without_folder(diagnostic.message, script.parent_path())));
-  for (std::size_t i = 0; i < std::min(diagnostic.calls.size(), most_calls); ++i) {
+  for (std::size_t i = 0; i < std::min(diagnostic.calls.size(), max_calls); ++i) {
     const auto& [name, call] = diagnostic.calls[i];
     lines.push_back(fmt::format("-- in {} {}:{}", name, call.line, call.column));
   }
-  if (diagnostic.calls.size() > most_calls)
-    lines.push_back(fmt::format("-- and {} calls more", diagnostic.calls.size() - most_calls));
+  if (diagnostic.calls.size() > max_calls)
+    lines.push_back(fmt::format("-- and {} calls more", diagnostic.calls.size() - max_calls));
 }
 
 std::vector<std::string> run(const fs::path& script) {

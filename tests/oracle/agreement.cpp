@@ -21,7 +21,7 @@
 namespace crt::test {
 namespace {
 
-constexpr std::size_t most_failures = 10;
+constexpr std::size_t max_failures = 10;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool same(const Hit& a, const Hit& b) {
@@ -179,11 +179,11 @@ Subject make_tree(Counted& random, const Vec3& at, double size) {
 /// Makes more objects than a flat box list takes, each in a cell of its own.
 Subject make_crowd(Counted& random, const Vec3& at, double size) {
   constexpr int cells = 5;
-  constexpr double most_sizes = 8;  // from its place a spindle torus reaches nearly that far
+  constexpr double max_sizes = 8;  // from its place a spindle torus reaches nearly that far
   Subject crowd{.entities = {}, .parts = {}, .size = size};
   for (int cell = 0; cell < cells * cells * cells; ++cell) {
     const Vec3 place(cell % cells, cell / cells % cells, cell / (cells * cells));
-    const Vec3 middle = at + 2 * most_sizes * size * place;
+    const Vec3 middle = at + 2 * max_sizes * size * place;
     Primitive part = solid_part(random, middle, size);
     // A mesh may not have found its place.
     const bool is_elsewhere =
@@ -269,8 +269,8 @@ void add_parts(Counted& random, RayQueries& queries, std::vector<Ray>& rays) {
 }
 
 std::string text_of(const Subject& subject) {
-  constexpr std::size_t most_parts = 3;
-  if (subject.parts.size() > most_parts) return "";
+  constexpr std::size_t max_parts = 3;
+  if (subject.parts.size() > max_parts) return "";
   std::string text;
   for (const Primitive& part : subject.parts) {
     text += description({.primitive = part, .to_world = subject.to_world}) + "; ";
@@ -310,7 +310,7 @@ void AgreementRecord::add(const AgreementRecord& other) {
   disagreements += other.disagreements;
   digest += other.digest;
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
-  if (failures.size() > most_failures) failures.resize(most_failures);
+  if (failures.size() > max_failures) failures.resize(max_failures);
 }
 
 void compare_queries(const PreparedScene& scene, const std::string& subject,
@@ -325,7 +325,7 @@ void compare_queries(const PreparedScene& scene, const std::string& subject,
     if (!crossings.empty()) ++record.hits;
     if (what.empty()) continue;
     ++record.disagreements;
-    if (record.failures.size() >= most_failures) continue;
+    if (record.failures.size() >= max_failures) continue;
     record.failures.push_back(fmt::format("{}: {} {}", what, subject, text_of(rays[i])));
   }
 }

@@ -11,7 +11,7 @@
 namespace crt::test {
 namespace {
 
-constexpr std::size_t most_failures = 20;
+constexpr std::size_t max_failures = 20;
 
 /// Says whether the flips alternate, and so make sense at all.
 bool alternates(const FoundFlips& found) {
@@ -76,7 +76,7 @@ void measure_tree(std::uint64_t number, std::uint64_t rays, CsgRecord& record) {
   record.faces += static_cast<std::uint64_t>(oracle.faces());
   record.coincident_faces += static_cast<std::uint64_t>(oracle.coincident_faces());
   const auto fail = [&](const char* tier, std::uint64_t ray) {
-    if (record.failures.size() < most_failures)
+    if (record.failures.size() < max_failures)
       record.failures.push_back(fmt::format("{}: tree {}, ray {}", tier, number, ray));
   };
   for (std::uint64_t i = 0; i < rays; ++i) {
@@ -117,7 +117,7 @@ void CsgRecord::add(const CsgRecord& other) {
   add_tier(exact, other.exact);
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
   std::sort(failures.begin(), failures.end());
-  if (failures.size() > most_failures) failures.resize(most_failures);
+  if (failures.size() > max_failures) failures.resize(max_failures);
 }
 
 CsgRecord measure_csg(std::uint64_t first, std::uint64_t last, std::uint64_t rays_per_tree) {

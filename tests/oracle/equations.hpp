@@ -121,9 +121,9 @@ struct Relative {
 };
 
 /// A primitive has at most so many equations.
-inline constexpr std::size_t most_equations = 10;
+inline constexpr std::size_t max_equations = 10;
 template <class Number>
-using Equations = Few<Polynomial<Number>, most_equations>;
+using Equations = Few<Polynomial<Number>, max_equations>;
 
 /// A cylinder has the equations of its side and of its caps.
 inline constexpr std::ptrdiff_t cylinder_equations = 3;

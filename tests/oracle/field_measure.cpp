@@ -18,7 +18,7 @@
 namespace crt::test {
 namespace {
 
-constexpr std::size_t most_field_failures = 20;
+constexpr std::size_t max_field_failures = 20;
 
 /// Holds the numbers that make a field one of its kind.
 struct RandomField {
@@ -284,7 +284,7 @@ struct MeasuredField {
 };
 
 void add_failure(std::string failure, FieldRecord& record) {
-  if (record.failures.size() < most_field_failures) record.failures.push_back(std::move(failure));
+  if (record.failures.size() < max_field_failures) record.failures.push_back(std::move(failure));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/placement.hpp"
-#include "core/render/input_rays.hpp"
+#include "core/queries/input_rays.hpp"
 #include "oracle/naive.hpp"
 #include "oracle/number_vec.hpp"
 
@@ -25,7 +25,7 @@ using core::CrossingList;
 constexpr double u = unit_of_rounding;
 /// The measurement itself may be off by this factor.
 constexpr double tolerance = 1 + 0x1p-20;
-constexpr std::size_t most_failures = 20;
+constexpr std::size_t max_failures = 20;
 
 Question question_of(const TestRay& ray) {
   return {ray.primitive, ray.origin, ray.direction, ray.to_world};
@@ -209,7 +209,7 @@ void Record::add(const Record& other) {
     ulps_by_decade[i].add(other.ulps_by_decade[i]);
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
   std::sort(failures.begin(), failures.end());
-  if (failures.size() > most_failures) failures.resize(most_failures);
+  if (failures.size() > max_failures) failures.resize(max_failures);
 }
 
 Truth truth_of(const TestRay& ray, FirstTry first) {
@@ -255,7 +255,7 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
     if (!wrong) ++record.close_calls_by_kind[static_cast<std::size_t>(ray.kind)];
     kept = !wrong;
   }
-  if (!kept && record.failures.size() < most_failures) record.failures.push_back(number);
+  if (!kept && record.failures.size() < max_failures) record.failures.push_back(number);
   return kept;
 }
 

@@ -20,7 +20,7 @@
 namespace crt::test {
 namespace {
 
-constexpr std::size_t most_mesh_failures = 20;
+constexpr std::size_t max_mesh_failures = 20;
 constexpr double last_place_share = 0.51;
 
 mpq_class distance(const mpq_class& a, const mpq_class& b) {
@@ -284,17 +284,17 @@ Random random_for(std::uint64_t number, std::uint64_t ray) {
 }
 
 void add_failure(std::string failure, MeshRecord& record) {
-  if (record.failures.size() < most_mesh_failures) record.failures.push_back(std::move(failure));
+  if (record.failures.size() < max_mesh_failures) record.failures.push_back(std::move(failure));
 }
 
 /// Measures many meshes of each size, the more the smaller they are.
 template <class Measure>
-MeshRecord measure_sizes(std::size_t most_triangles, std::uint64_t rays, const Measure& measure) {
+MeshRecord measure_sizes(std::size_t max_triangles, std::uint64_t rays, const Measure& measure) {
   constexpr std::uint64_t least_rays = 500;
   std::uint64_t sizes = 0;
-  for (std::size_t size = 100; size <= most_triangles; size *= 10) ++sizes;
+  for (std::size_t size = 100; size <= max_triangles; size *= 10) ++sizes;
   MeshRecord record;
-  for (std::size_t size = 100; size <= most_triangles; size *= 10) {
+  for (std::size_t size = 100; size <= max_triangles; size *= 10) {
     const std::uint64_t share = rays / sizes;
     const std::uint64_t each = std::max<std::uint64_t>(least_rays, 2 * size);
     const std::uint64_t meshes = std::max<std::uint64_t>(1, share / each);
@@ -309,13 +309,13 @@ void MeshRecord::add_mesh(const TriangleList& mesh) {
   ++meshes;
   const std::uint64_t triangles = mesh.triangles.size();
   least_triangles = std::min(least_triangles, triangles);
-  most_triangles = std::max(most_triangles, triangles);
+  max_triangles = std::max(max_triangles, triangles);
 }
 
 void MeshRecord::add(const MeshRecord& other) {
   meshes += other.meshes;
   least_triangles = std::min(least_triangles, other.least_triangles);
-  most_triangles = std::max(most_triangles, other.most_triangles);
+  max_triangles = std::max(max_triangles, other.max_triangles);
   rays += other.rays;
   touching += other.touching;
   crossings += other.crossings;
@@ -414,19 +414,19 @@ MeshRecord measure_mesh_union(std::size_t triangles, std::uint64_t number, std::
   return measure_pair(pair, entity, "union", union_of, number, rays);
 }
 
-MeshRecord measure_meshes(MeshKind kind, std::size_t most_triangles, std::uint64_t rays) {
-  return measure_sizes(most_triangles, rays,
+MeshRecord measure_meshes(MeshKind kind, std::size_t max_triangles, std::uint64_t rays) {
+  return measure_sizes(max_triangles, rays,
                        [&](std::size_t triangles, std::uint64_t number, std::uint64_t count) {
                          return measure_mesh(kind, triangles, number, count);
                        });
 }
 
-MeshRecord measure_mesh_differences(std::size_t most_triangles, std::uint64_t rays) {
-  return measure_sizes(most_triangles, rays, measure_mesh_difference);
+MeshRecord measure_mesh_differences(std::size_t max_triangles, std::uint64_t rays) {
+  return measure_sizes(max_triangles, rays, measure_mesh_difference);
 }
 
-MeshRecord measure_mesh_unions(std::size_t most_triangles, std::uint64_t rays) {
-  return measure_sizes(most_triangles, rays, measure_mesh_union);
+MeshRecord measure_mesh_unions(std::size_t max_triangles, std::uint64_t rays) {
+  return measure_sizes(max_triangles, rays, measure_mesh_union);
 }
 
 }  // namespace crt::test

@@ -26,7 +26,7 @@ struct MeshTierRecord {
 struct MeshRecord {
   std::uint64_t meshes = 0;
   std::uint64_t least_triangles = ~std::uint64_t{0};
-  std::uint64_t most_triangles = 0;
+  std::uint64_t max_triangles = 0;
   std::uint64_t rays = 0;
   std::uint64_t touching = 0;  ///< rays that meet an edge or a corner, or lie in a triangle
   std::uint64_t crossings = 0;
@@ -51,8 +51,8 @@ MeshRecord measure_mesh_difference(std::size_t triangles, std::uint64_t number, 
 MeshRecord measure_mesh_union(std::size_t triangles, std::uint64_t number, std::uint64_t rays);
 
 /// Measures so many rays in all, at meshes of 100 triangles to so many, as many rays at each size.
-MeshRecord measure_meshes(MeshKind kind, std::size_t most_triangles, std::uint64_t rays);
-MeshRecord measure_mesh_differences(std::size_t most_triangles, std::uint64_t rays);
-MeshRecord measure_mesh_unions(std::size_t most_triangles, std::uint64_t rays);
+MeshRecord measure_meshes(MeshKind kind, std::size_t max_triangles, std::uint64_t rays);
+MeshRecord measure_mesh_differences(std::size_t max_triangles, std::uint64_t rays);
+MeshRecord measure_mesh_unions(std::size_t max_triangles, std::uint64_t rays);
 
 }  // namespace crt::test

@@ -196,8 +196,8 @@ void MeshOracle::build(std::uint32_t begin, std::uint32_t end) {
   }
   const std::size_t number = nodes_.size();
   nodes_.push_back({0.5 * lower + 0.5 * upper, 0.5 * upper - 0.5 * lower, begin, end, 0});
-  constexpr std::uint32_t most_in_leaf = 4;
-  if (end - begin <= most_in_leaf) return;
+  constexpr std::uint32_t max_in_leaf = 4;
+  if (end - begin <= max_in_leaf) return;
   const Vec3 extent = upper - lower;
   const int axis = extent.x >= std::max(extent.y, extent.z) ? 0 : (extent.y >= extent.z ? 1 : 2);
   const auto key = [&](std::uint32_t face) {

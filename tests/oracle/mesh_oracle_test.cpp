@@ -16,10 +16,10 @@ namespace {
 // This takes some 12 s of one core in all. A build that is slow by intent gets a twentieth.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t rays = 4000;
-constexpr std::size_t most_triangles = 10'000;
+constexpr std::size_t max_triangles = 10'000;
 #else
 constexpr std::uint64_t rays = 200;
-constexpr std::size_t most_triangles = 1000;
+constexpr std::size_t max_triangles = 1000;
 #endif
 
 /// Returns a cube of twelve triangles, from 0 to 1 along each axis.
@@ -148,7 +148,7 @@ TEST_CASE("the oracle of meshes finds the voxels that lines go through") {
 TEST_CASE("meshes of all kinds are met where fractions say, in both tiers") {
   for (std::size_t kind = 0; kind < mesh_kinds; ++kind) {
     CAPTURE(kind);
-    check(measure_meshes(static_cast<MeshKind>(kind), most_triangles, rays));
+    check(measure_meshes(static_cast<MeshKind>(kind), max_triangles, rays));
   }
 }
 

@@ -23,13 +23,13 @@ using namespace crt::test;
 
 namespace {
 
-constexpr std::uint64_t most_naive_rays = 1'000'000;
+constexpr std::uint64_t max_naive_rays = 1'000'000;
 /// One in so many rays is cast at a transformed primitive once more, at trees and at meshes.
 constexpr std::uint64_t placed_share = 10;
 constexpr std::uint64_t csg_share = 10;
 constexpr std::uint64_t mesh_share = 10;
 constexpr std::uint64_t field_share = 10;
-constexpr std::size_t most_triangles = 1'000'000;
+constexpr std::size_t max_triangles = 1'000'000;
 constexpr std::uint64_t rays_per_tree = 200;
 constexpr std::uint64_t rays_per_field = 200;
 constexpr const char* trees = "trees";
@@ -72,7 +72,7 @@ struct TimedRays {
 
 Measured measured(std::size_t kind, std::uint64_t rays) {
   std::vector<Record> records = measure_all(kind, 0, rays, {standard_tier(), exact_tier()});
-  Record naive = measure_all(kind, 0, std::min(rays, most_naive_rays), {naive_formulas()})[0];
+  Record naive = measure_all(kind, 0, std::min(rays, max_naive_rays), {naive_formulas()})[0];
   const TimedRays timed(kind);
   const std::size_t count = timed.rays.size();
   crt::core::CrossingList found;
@@ -143,11 +143,10 @@ class Measuring {
     const std::uint64_t rays = rays_ / mesh_share / parts;
     for (std::size_t kind = 0; kind < mesh_kinds; ++kind) {
       const auto of = static_cast<MeshKind>(kind);
-      if (is_wanted(name_of(of)))
-        mesh_part({name_of(of), measure_meshes(of, most_triangles, rays)});
+      if (is_wanted(name_of(of))) mesh_part({name_of(of), measure_meshes(of, max_triangles, rays)});
     }
     if (is_wanted(difference))
-      mesh_part({difference, measure_mesh_differences(most_triangles, rays)});
+      mesh_part({difference, measure_mesh_differences(max_triangles, rays)});
   }
 
   void fields() {

@@ -34,7 +34,7 @@ class PreparedTree {
                               .t_max = infinity,
                               .start = {}};
     FoundFlips result;
-    scene_.surrounding(line, hits_, work_);
+    scene_.containing_solids(line, hits_, work_);
     result.inside_before = !hits_.empty();
     scene_.crossings(line, hits_, work_);
     for (const core::RayHit& hit : hits_) result.flips.push_back({hit.t, hit.entering});

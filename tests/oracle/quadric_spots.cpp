@@ -48,9 +48,9 @@ double extent_of(const Quadric& q) {
 
 void make(Counted& random, const Vec3& at, double size, Quadric& q) {
   // Where the size is lost in the place, coefficients have no digits left for it.
-  constexpr double most_sizes = 1e3;
+  constexpr double max_sizes = 1e3;
   Vec3 center = at;
-  if (glm::length(at) > most_sizes * size)
+  if (glm::length(at) > max_sizes * size)
     center = size * random.power_of_ten(-2, 2) * random.direction();
   const Frame frame = across(random.direction() + 1e-3 * random.in_cube());
   std::array<Vec3, 3> axes = {frame.a, frame.b, glm::cross(frame.a, frame.b)};

@@ -200,7 +200,7 @@ TriangleList needles(Random& random, std::size_t triangles) {
 }
 
 TriangleList sliver_mesh(Random& random, std::size_t triangles) {
-  constexpr std::size_t most_in_fans = 2000;  // a line through the end of an axis meets half
+  constexpr std::size_t max_in_fans = 2000;  // a line through the end of an axis meets half
   switch (random.bits() % 3) {
     case 0: {
       Vec3 scale(1.0);
@@ -208,7 +208,7 @@ TriangleList sliver_mesh(Random& random, std::size_t triangles) {
       return ball_mesh(random, ball_parts(triangles), 0.01, scale);
     }
     case 1:
-      if (triangles <= most_in_fans) return fans(random, triangles);
+      if (triangles <= max_in_fans) return fans(random, triangles);
       [[fallthrough]];
     default:
       return needles(random, triangles);

@@ -94,12 +94,12 @@ template <class Number>
 Number enclose(const Polynomial<Number>& p, const Polynomial<Number>& slope, const Number& from,
                const Number& to, int sign_low) {
   constexpr int most_steps = 400;
-  constexpr int most_widenings = 12;
+  constexpr int max_widenings = 12;
   constexpr double widening = 8;
   if (p[0].is_zero() && from.certain_sign() < 0 && to.certain_sign() > 0) return Number(0.0);
-  constexpr int most_bits = 900;  // of the remaining distance, as long as doubles hold it
+  constexpr int max_bits = 900;  // of the remaining distance, as long as doubles hold it
   const double shortest =
-      std::ldexp((to - from).largest_size(), -std::min(Number::precision(), most_bits));
+      std::ldexp((to - from).largest_size(), -std::min(Number::precision(), max_bits));
   Number low = from;
   Number high = to;
   Number x(rounded_root(p, low.value(), high.value(), sign_low));
@@ -117,7 +117,7 @@ Number enclose(const Polynomial<Number>& p, const Polynomial<Number>& slope, con
     x = (x - height.middle() / Number(rate)).middle();
   }
   margin = std::max(margin, shortest);
-  for (int i = 0; i < most_widenings && std::isfinite(margin); ++i, margin *= widening) {
+  for (int i = 0; i < max_widenings && std::isfinite(margin); ++i, margin *= widening) {
     const Number left = (x - Number(2 * margin)).middle();
     const Number right = (x + Number(2 * margin)).middle();
     if (evaluate(p, left).certain_sign() == sign_low &&

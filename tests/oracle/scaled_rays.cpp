@@ -22,8 +22,8 @@ void scale_direction(Counted& random, TestRay& ray) {
   const double largest = core::largest_component(ray.direction);
   const int exponent = largest > 0 ? std::ilogb(largest) : 0;
   for (int i = 0; i < 3; ++i) ray.direction[i] = std::scalbn(ray.direction[i], -exponent);
-  constexpr int most_powers = 850;
-  ray.scale = std::ldexp(1.0, random.integer(-most_powers, most_powers));
+  constexpr int max_powers = 850;
+  ray.scale = std::ldexp(1.0, random.integer(-max_powers, max_powers));
   ray.kind = RayKind::extreme_length;
   round_scaled(ray);
   if (ray.direction == Vec3(0)) ray.direction = before;

@@ -184,8 +184,8 @@ SolidTree random_tree(std::uint64_t number) {
 }
 
 GridRay random_ray(std::uint64_t tree, std::uint64_t number) {
-  constexpr std::uint64_t most_rays = 1 << 20;
-  Counted random(101, tree * most_rays + number);
+  constexpr std::uint64_t max_rays = 1 << 20;
+  Counted random(101, tree * max_rays + number);
   GridRay ray{9.0 * random.in_cube(), Vec3(0)};
   const auto share = [&] { return random.integer(-1 << 20, 1 << 20) * 0x1p-18; };
   switch (random.integer(0, 5)) {
@@ -297,7 +297,7 @@ TreeOracle::Flips TreeOracle::flips(const GridRay& ray) const {
       polynomials.push_back(of_leaf[surface.equation]);
     }
     const Places<Number> places(polynomials);
-    Few<int, most_equations> leaf_signs;
+    Few<int, max_equations> leaf_signs;
     const auto inside = [&](const std::vector<int>& signs) {
       const auto leaf_value = [&](std::size_t leaf) {
         leaf_signs = {};

@@ -143,8 +143,8 @@ int follow(const PreparedData& shared, const PreparedData& copies, WorldRay ray)
     REQUIRE(all_of_shared.size() == all_of_copies.size());
     for (std::size_t i = 0; i < all_of_shared.size(); ++i)
       check_equal(shared, copies, ray, all_of_shared[i], all_of_copies[i]);
-    shared.surrounding(ray, all_of_shared, work_of_shared);
-    copies.surrounding(twin, all_of_copies, work_of_copies);
+    shared.containing_solids(ray, all_of_shared, work_of_shared);
+    copies.containing_solids(twin, all_of_copies, work_of_copies);
     REQUIRE(all_of_shared.size() == all_of_copies.size());
     for (std::size_t i = 0; i < all_of_shared.size(); ++i)
       CHECK(all_of_shared[i].t == all_of_copies[i].t);

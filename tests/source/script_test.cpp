@@ -11,7 +11,7 @@
 #include <limits>
 #include <string>
 
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 #include "core/geometry/mesh/facet_attributes.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 #include "support/temporary_directory.hpp"

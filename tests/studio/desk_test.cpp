@@ -50,8 +50,8 @@ TEST_CASE("a page that sends more than is done is held up, and goes on when ther
   Workplace place;
   const int count = place.fill("a");
   // One may be at work already.
-  CHECK(count >= static_cast<int>(Desk::most_messages));
-  CHECK(count <= static_cast<int>(Desk::most_messages) + 1);
+  CHECK(count >= static_cast<int>(Desk::max_messages));
+  CHECK(count <= static_cast<int>(Desk::max_messages) + 1);
   // It may have gone to work just after the last, which has made room then.
   place.allowed.release(count);
   place.room.acquire();

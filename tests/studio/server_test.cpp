@@ -89,12 +89,12 @@ class Parrot : public Client {
 /// A ParrotServer serves until it is destroyed.
 class ParrotServer {
  public:
-  explicit ParrotServer(WebServer::MakeClient make, std::size_t most_clients = 16,
+  explicit ParrotServer(WebServer::MakeClient make, std::size_t max_clients = 16,
                         std::shared_ptr<const Transport> transport = {})
       : server_({.transport = std::move(transport),
                  .token = "t",
                  .ends_by_signals = false,
-                 .most_clients = most_clients},
+                 .max_clients = max_clients},
                 std::move(make)),
         thread_([this] { server_.run(); }) {}
   ~ParrotServer() {

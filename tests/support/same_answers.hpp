@@ -33,7 +33,7 @@ inline RayBatch batch_of(std::span<const WorldRay> rays, RayMask some) {
     batch.set(
         i, is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan});
     // Code that has rays in free space makes its batches so.
-    if (batch.starts[i].leaf == nothing) batch.with_starts &= ~(RayMask{1} << i);
+    if (batch.starts[i].leaf == invalid_index) batch.with_starts &= ~(RayMask{1} << i);
   }
   return batch;
 }

@@ -20,10 +20,10 @@ namespace crt::core {
 /// a tree takes to begin. It tests four at a time, in doubles.
 class FlatBoxList {
  public:
-  static constexpr std::size_t most_boxes = 64;
+  static constexpr std::size_t max_boxes = 64;
 
   FlatBoxList() = default;
-  /// Takes up to most_boxes boxes, all of them finite.
+  /// Takes up to max_boxes boxes, all of them finite.
   explicit FlatBoxList(std::span<const Bounds> boxes)
       : groups_((boxes.size() + lane_count - 1) / lane_count), count_(boxes.size()) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -90,7 +90,7 @@ class FlatBoxList {
 
   /// BoxTimes are when something enters each of the boxes. They are of use only where it does.
   struct BoxTimes {
-    alignas(sizeof(Lanes)) std::array<double, most_boxes> of;
+    alignas(sizeof(Lanes)) std::array<double, max_boxes> of;
 
     void set(std::size_t group, const Lanes& times) { put_lanes(times, of, group * lane_count); }
   };
@@ -204,7 +204,7 @@ class FlatBoxList {
   }
 
   std::uint64_t all_boxes() const {
-    return count_ == 0 ? 0 : ~std::uint64_t{0} >> (most_boxes - count_);
+    return count_ == 0 ? 0 : ~std::uint64_t{0} >> (max_boxes - count_);
   }
 
   std::vector<Group> groups_;

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Linux itself follows as many symbolic links.
-constexpr int most_links = 40;
+constexpr int max_links = 40;
 
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -75,7 +75,7 @@ void fail_to_write(const fs::path& path, const std::string& reason) {
 OutputPlace output_place(const fs::path& path) {
   using Kind = OutputPlace::Kind;
   fs::path at = path;
-  for (int links = 0; links <= most_links; ++links) {
+  for (int links = 0; links <= max_links; ++links) {
     if (const std::optional<int> number = own_descriptor(at))
       return {Kind::descriptor, path, *number};
     struct stat status {};

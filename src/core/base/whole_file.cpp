@@ -224,11 +224,11 @@ class TemporaryFile {
 
   /// Tries names until one is free. O_EXCL makes each attempt safe from other writers.
   Descriptor create() {
-    constexpr int most_attempts = 10000;
+    constexpr int max_attempts = 10000;
     constexpr mode_t readable_by_all = 0666;
     // A file that others may not read is not to be read by them while its replacement is written.
     constexpr mode_t private_at_first = 0600;
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; attempt < max_attempts; ++attempt) {
       name_ = place_.path.parent_path() / text::format(".crt-{}-{}.part", ::getpid(), attempt);
       Descriptor file(::openat(place_.folder, name_.c_str(),
                                O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC,

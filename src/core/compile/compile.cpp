@@ -199,10 +199,11 @@ void Compiler::finish_instances() {
     if (!object.is_instance()) continue;
     object.first_leaf = static_cast<std::uint32_t>(first_leaf);
     first_leaf += result_.prototype_of(object).leaves.size();
-    if (first_leaf < nothing) continue;
-    throw Error(ErrorCode::limit,
-                text::format("the instances of the scene have more than {} primitives", nothing),
-                "entities");
+    if (first_leaf < invalid_index) continue;
+    throw Error(
+        ErrorCode::limit,
+        text::format("the instances of the scene have more than {} primitives", invalid_index),
+        "entities");
   }
 }
 
@@ -257,7 +258,7 @@ void Compiler::make_leaves() {
 
 void Compiler::make_faces() {
   find_unlisted_faces(result_.leaves, workers_);
-  constexpr std::uint64_t most_faces = 0xfffffff0u;
+  constexpr std::uint64_t max_faces = 0xfffffff0u;
   std::uint64_t count = 0;
   std::uint64_t unlisted = 0;
   for (const Leaf& leaf : result_.leaves) {
@@ -266,9 +267,9 @@ void Compiler::make_faces() {
   for (Leaf& leaf : result_.leaves) {
     leaf.first_face = static_cast<std::uint32_t>(count);
     count += leaf.face_count;
-    if (count + unlisted > most_faces) {
+    if (count + unlisted > max_faces) {
       throw Error(ErrorCode::limit,
-                  text::format("the primitives of the scene have more than {} faces", most_faces),
+                  text::format("the primitives of the scene have more than {} faces", max_faces),
                   "entities");
     }
   }

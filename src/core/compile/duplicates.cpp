@@ -54,9 +54,9 @@ class Duplicates {
   };
   /// A Child is a leaf or a node below a node.
   struct Child {
-    std::uint32_t equal = 0;       ///< the class of all that is equal to it
-    std::uint32_t first_leaf = 0;  ///< its first leaf in the program
-    std::uint32_t node = nothing;  ///< the node, if it is one
+    std::uint32_t equal = 0;             ///< the class of all that is equal to it
+    std::uint32_t first_leaf = 0;        ///< its first leaf in the program
+    std::uint32_t node = invalid_index;  ///< the node, if it is one
   };
 
   // ---- leaves ----
@@ -163,7 +163,7 @@ bool Duplicates::is_involved(const SceneObject& object) const {
 }
 
 void Duplicates::choose() {
-  constexpr std::uint32_t opaque = nothing;  // stands in for a material's number
+  constexpr std::uint32_t opaque = invalid_index;  // stands in for a material's number
   std::vector<std::uint32_t> looks;
   for (std::uint32_t i = 0; i < scene_.materials.size(); ++i) {
     looks.push_back(lets_light_in(*scene_.materials[i]) ? i : opaque);
@@ -214,11 +214,11 @@ std::uint32_t Duplicates::reduce(const CsgProgram& program) {
       return std::tie(a.equal, a.first_leaf) < std::tie(b.equal, b.first_leaf);
     });
     std::vector<std::uint32_t> signature = {nodes[node].needed};
-    std::uint32_t first_leaf = nothing;
+    std::uint32_t first_leaf = invalid_index;
     for (const Child& child : of_node) {
       first_leaf = std::min(first_leaf, child.first_leaf);
       if (signature.size() > 1 && signature.back() == child.equal) {
-        if (child.node == nothing) {
+        if (child.node == invalid_index) {
           keeps_leaf_[program.first_leaf + child.first_leaf] = false;
         } else {
           drops_node[child.node] = true;

@@ -76,7 +76,7 @@ class Flattening {
 
 FlatScene Flattening::flatten(std::span<const Entity> entities, const PrimitiveLimit& limit) {
   instancing_ = Instancing(entities);
-  count_ = instancing_.count(entities, PrimitiveLimit::most_numbered);
+  count_ = instancing_.count(entities, PrimitiveLimit::max_numbered);
   limit.check(count_);
   std::uint64_t leaves = 0;
   for (const Entity& entity : entities) leaves += entity.node().leaf_count;

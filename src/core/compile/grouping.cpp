@@ -33,7 +33,7 @@ struct PartSet {
 
 /// This many cuts into a set are enough. Each is O(n log n), and some sets lose but one part by
 /// each.
-constexpr int most_cuts = 64;
+constexpr int max_cuts = 64;
 
 class Grouping {
  public:
@@ -50,7 +50,7 @@ class Grouping {
       const PartSet set = open.back();
       open.pop_back();
       // Each set is cut along one axis after the other until no axis has cut it.
-      if (set.size() == 1 || set.axes_without_gap == 3 || set.cuts == most_cuts) {
+      if (set.size() == 1 || set.axes_without_gap == 3 || set.cuts == max_cuts) {
         const std::span<Extent> group = extents_of(set);
         sort_in_parallel(group, workers_,
                          [](const Extent& a, const Extent& b) { return a.part < b.part; });

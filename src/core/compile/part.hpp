@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 
 namespace crt::core {
 

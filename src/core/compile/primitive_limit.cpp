@@ -10,9 +10,9 @@ void PrimitiveLimit::check(const Instancing::Count& count) const {
   if (!is_limited_) return;
   constexpr std::uint64_t few = std::uint64_t{1} << 16;  // for which memory is not looked at
   const std::uint64_t primitives = count.primitives + count.instances;
-  if (primitives > most_numbered) {
+  if (primitives > max_numbered) {
     throw Error(ErrorCode::limit,
-                text::format("the scene has more than {} primitives", most_numbered), "entities");
+                text::format("the scene has more than {} primitives", max_numbered), "entities");
   }
   if (most_ != 0 && primitives > most_) {
     throw Error(ErrorCode::limit,

@@ -22,7 +22,7 @@ inline constexpr std::uint64_t bytes_of_instance = 512;
 class PrimitiveLimit {
  public:
   /// Faces, leaves and nodes have numbers of 32 bits, and a primitive may have some of each.
-  static constexpr std::uint64_t most_numbered = std::uint64_t{1} << 25;
+  static constexpr std::uint64_t max_numbered = std::uint64_t{1} << 25;
 
   /// Sets no limit.
   PrimitiveLimit() = default;

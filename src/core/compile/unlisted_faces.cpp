@@ -51,7 +51,7 @@ void find_unlisted_faces(std::span<Leaf> leaves, const Workers& workers) {
     if (leaf.face_count == leaf.shape->face_count()) continue;
     std::vector<std::uint32_t> faces;
     for (const Leaf& other : leaves) {
-      if (&other == &leaf || other.face_count > Shape::most_compared_faces ||
+      if (&other == &leaf || other.face_count > Shape::max_compared_faces ||
           !other.bounds.touches(leaf.bounds)) {
         continue;
       }

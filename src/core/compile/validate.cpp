@@ -88,14 +88,14 @@ void require_image(const std::shared_ptr<const Image>& image) {
   if (!image || image->empty()) reject("image", "must be a picture (there is none)");
 }
 
-constexpr int most_nested_patterns = 5;
-constexpr std::size_t most_color_stops = 64;
+constexpr int max_nested_patterns = 5;
+constexpr std::size_t max_color_stops = 64;
 
 void require_stops(const std::vector<ColorStop>& stops) {
   if (stops.empty()) return;
-  if (stops.size() < 2 || stops.size() > most_color_stops)
+  if (stops.size() < 2 || stops.size() > max_color_stops)
     reject("colors",
-           text::format("must be between 2 and {} (there are {})", most_color_stops, stops.size()));
+           text::format("must be between 2 and {} (there are {})", max_color_stops, stops.size()));
   double before = 0;
   for (const ColorStop& stop : stops) {
     require_color("colors", stop.color, largest_factor);
@@ -159,9 +159,9 @@ struct PatternCheck {
   }
   void nested_pattern(std::string_view field, const SharedPattern& inner) const {
     if (!inner) return;
-    if (depth >= most_nested_patterns)
+    if (depth >= max_nested_patterns)
       reject(field,
-             text::format("has more than {} patterns within one another", most_nested_patterns));
+             text::format("has more than {} patterns within one another", max_nested_patterns));
     std::visit(PatternCheck{depth + 1}, inner->pattern);
   }
 

@@ -113,8 +113,8 @@ void append_arc_of_ellipse(Contour& contour, const EllipseFrame& frame, double b
   // A part of the deviation is for the cubics, and the rest for what becomes of them.
   constexpr double share_of_cubics = 0.125;
   const double radius = std::max(frame.radius_x, frame.radius_y);
-  constexpr int most_cubics = 1024;
-  while (radius * error_of_cubic(turn / count) > share_of_cubics * within && count < most_cubics) {
+  constexpr int max_cubics = 1024;
+  while (radius * error_of_cubic(turn / count) > share_of_cubics * within && count < max_cubics) {
     count *= 2;
   }
   cubics = points();

@@ -54,7 +54,7 @@ namespace {
 struct GlyphDrawer {
   double scale = 1;
   double deviation = 0;
-  std::size_t most_corners = 0;
+  std::size_t max_corners = 0;
   std::vector<Contour> contours{};
   Contour contour{};
   std::size_t corners = 0;
@@ -69,7 +69,7 @@ struct GlyphDrawer {
     auto& drawer = *static_cast<GlyphDrawer*>(user);
     try {
       step(drawer);
-      if (drawer.corners + drawer.contour.size() > drawer.most_corners) {
+      if (drawer.corners + drawer.contour.size() > drawer.max_corners) {
         throw Error(ErrorCode::limit, "the text has too many corners: make it several");
       }
       return 0;
@@ -153,14 +153,14 @@ double FontReader::kerning(std::uint32_t first, std::uint32_t second) const {
 }
 
 Glyph FontReader::glyph(std::uint32_t number, double scale, double deviation,
-                        std::size_t most_corners) const {
+                        std::size_t max_corners) const {
   const FreeType& functions = free_type();
   constexpr FT_Int32 flags = FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP;
   if (functions.load_glyph(face_, number, flags) != 0 ||
       face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) {
     refuse_font(font_.name(), text::format("has a broken glyph (number {})", number));
   }
-  GlyphDrawer drawer{.scale = scale, .deviation = deviation, .most_corners = most_corners};
+  GlyphDrawer drawer{.scale = scale, .deviation = deviation, .max_corners = max_corners};
   const FT_Outline_Funcs steps{.move_to = &GlyphDrawer::move,
                                .line_to = &GlyphDrawer::line,
                                .conic_to = &GlyphDrawer::conic,

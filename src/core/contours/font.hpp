@@ -51,8 +51,8 @@ class FontReader {
   std::uint32_t glyph_of(char32_t letter) const;
   /// Returns how much closer than by its advance the second of two glyphs is, as a number below 0.
   double kerning(std::uint32_t first, std::uint32_t second) const;
-  /// Reads a glyph with contours of at most `most_corners`. Throws Error (io, limit).
-  Glyph glyph(std::uint32_t number, double scale, double deviation, std::size_t most_corners) const;
+  /// Reads a glyph with contours of at most `max_corners`. Throws Error (io, limit).
+  Glyph glyph(std::uint32_t number, double scale, double deviation, std::size_t max_corners) const;
 
  private:
   const Font& font_;

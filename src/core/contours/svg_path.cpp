@@ -95,12 +95,12 @@ class PathDrawer {
   }
 
   void check_size() const {
-    constexpr std::size_t most_corners = std::size_t{1} << 20;
-    if (corners_ + contour_.size() > most_corners) {
+    constexpr std::size_t max_corners = std::size_t{1} << 20;
+    if (corners_ + contour_.size() > max_corners) {
       throw Error(ErrorCode::limit,
                   text::format("path has over {} corners at character {}: draw it as several, or "
                                "with a larger deviation",
-                               most_corners, reader_.place() + 1),
+                               max_corners, reader_.place() + 1),
                   "path");
     }
   }

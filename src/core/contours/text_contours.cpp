@@ -16,8 +16,8 @@ using namespace core;
 
 namespace {
 
-constexpr std::size_t most_letters = std::size_t{1} << 16;
-constexpr std::size_t most_corners = std::size_t{1} << 20;
+constexpr std::size_t max_letters = std::size_t{1} << 16;
+constexpr std::size_t max_corners = std::size_t{1} << 20;
 
 [[noreturn]] void refuse_layout(const char* field, const std::string& range, double value) {
   throw Error(ErrorCode::invalid_argument,
@@ -27,11 +27,11 @@ constexpr std::size_t most_corners = std::size_t{1} << 20;
 void check(const TextLayout& layout) {
   constexpr double least_size = 1e-90;
   constexpr double largest_size = 1e90;
-  constexpr double most_spacing = 1000;
+  constexpr double max_spacing = 1000;
   if (!(layout.size >= least_size && layout.size <= largest_size)) {
     refuse_layout("size", "in [1e-90, 1e90]", layout.size);
   }
-  if (!(std::abs(layout.line_spacing) <= most_spacing)) {
+  if (!(std::abs(layout.line_spacing) <= max_spacing)) {
     refuse_layout("line_spacing", "in [-1000, 1000]", layout.line_spacing);
   }
 }
@@ -66,8 +66,8 @@ std::vector<std::u32string> lines_of(std::string_view text) {
   std::size_t letters = 0;
   for (std::size_t place = 0; place < text.size();) {
     const char32_t letter = next_letter(text, place);
-    if (++letters > most_letters) {
-      throw Error(ErrorCode::limit, text::format("text must have at most {} letters", most_letters),
+    if (++letters > max_letters) {
+      throw Error(ErrorCode::limit, text::format("text must have at most {} letters", max_letters),
                   "text");
     }
     if (letter == U'\n') {
@@ -125,7 +125,7 @@ class Typesetter {
     const auto [place, is_new] = glyphs_.try_emplace(number);
     if (is_new) {
       place->second =
-          reader_.glyph(number, scale_, layout_.options.deviation, most_corners - corners_);
+          reader_.glyph(number, scale_, layout_.options.deviation, max_corners - corners_);
     }
     return place->second;
   }
@@ -133,7 +133,7 @@ class Typesetter {
   void add(const Glyph& glyph, double x, double y) {
     for (Contour contour : glyph.contours) {
       corners_ += contour.size();
-      if (corners_ > most_corners) {
+      if (corners_ > max_corners) {
         throw Error(ErrorCode::limit, "the text has too many corners: make it several");
       }
       for (ProfilePoint& corner : contour) {

@@ -40,8 +40,8 @@ class EnclosedLines {
 
   /// Returns whether a ray that starts on a face of a solid, and to its inner side, surely comes
   /// into it there.
-  bool goes_into(const PlacedSolid& solid, std::uint32_t face, std::size_t lane) const {
-    return any(lane_bit(lane) && solid.goes_into(face, lines_));
+  bool starts_inwards(const PlacedSolid& solid, std::uint32_t face, std::size_t lane) const {
+    return any(lane_bit(lane) && solid.starts_inwards(face, lines_));
   }
   bool starts_at_0(std::size_t lane) const { return any(lane_bit(lane) && lines_.begin == 0.0); }
   /// Returns whether a ray that starts into a leaf is inside of it as soon as crossings count.

@@ -10,7 +10,7 @@ namespace crt::core {
 namespace {
 
 /// A line has at most this many crossings with one surface, as with a torus.
-constexpr std::size_t most_roots = 4;
+constexpr std::size_t max_roots = 4;
 
 /// The tolerance of what coincides has a finite value up to here.
 constexpr double finite_t = 0x1p900;
@@ -45,8 +45,8 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
     work_.nodes_.resize(program.nodes.size());
   }
   if (work_.leaves_.size() < program.leaf_count()) work_.leaves_.resize(program.leaf_count());
-  if (work_.shared_.size() < most_roots * program.shared_surfaces) {
-    work_.shared_.resize(most_roots * program.shared_surfaces);
+  if (work_.shared_.size() < max_roots * program.shared_surfaces) {
+    work_.shared_.resize(max_roots * program.shared_surfaces);
   }
   work_.openings_.clear();
   work_.to_open_.clear();  // holds something where the ray before was stopped
@@ -191,7 +191,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
     met.root = crossing.root;
     met.entering = crossing.entering;
     // Only fields have more roots. Leaves that share one cross it at the same t, to the bit.
-    met.shared = crossing.root < most_roots ? surface.shared : FaceSurface::not_shared;
+    met.shared = crossing.root < max_roots ? surface.shared : FaceSurface::not_shared;
     if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= farthest_start(ray_) &&
         is_at_start(in_place, ray_, ray_.start.t_error, object_ray_, crossing)) {
       met.t = ray_.t_min;
@@ -308,7 +308,7 @@ void CsgEvaluation::gather_shared() {
 }
 
 CsgEvaluation::SharedState& CsgEvaluation::shared_state(const CsgCrossing& crossing) {
-  const std::size_t index = most_roots * crossing.shared + crossing.root;
+  const std::size_t index = max_roots * crossing.shared + crossing.root;
   SharedState& state = work_.shared_[index];
   if (state.stamp < first_stamp_) state = {.stamp = first_stamp_};
   return state;

@@ -10,7 +10,7 @@ namespace {
 
 /// A crossing looks for others of its leaf among so many before it, so that a place of very many
 /// costs no more than their number.
-constexpr std::size_t most_looked_at = 64;
+constexpr std::size_t max_looked_at = 64;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ bool CsgEvaluation::coincides(const CsgCrossing& first, CsgCrossing& next,
            gap_between(*other, next) > own_reach(*other) + own_reach(next);
   };
   const auto& cluster = work_.cluster_;
-  const auto looked_at = static_cast<std::ptrdiff_t>(std::min(cluster.size(), most_looked_at));
+  const auto looked_at = static_cast<std::ptrdiff_t>(std::min(cluster.size(), max_looked_at));
   if (std::any_of(cluster.end() - looked_at, cluster.end(), is_beyond_own)) return false;
   return place.take(gap_between(first, next), next.reach);
 }

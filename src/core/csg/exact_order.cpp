@@ -21,7 +21,7 @@ constexpr auto is_before = [](const NearCrossing& a, const NearCrossing& b) {
 /// Returns a number below 0, 0 or above it, if their bounds or surfaces decide the order. Returns
 /// nothing if only the roots do.
 std::optional<int> order_by_bounds(const NearCrossing& a, const NearCrossing& b) {
-  if (a.surface == b.surface && a.surface != nothing && a.root == b.root) return 0;
+  if (a.surface == b.surface && a.surface != invalid_index && a.root == b.root) return 0;
   const double distance = (a.t - b.t) + (a.t_low - b.t_low);
   // The rounding of the distance is far less than the margin in the errors.
   if (std::abs(distance) > a.error + b.error) return distance > 0 ? 1 : -1;

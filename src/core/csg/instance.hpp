@@ -67,8 +67,8 @@ class InstancePlacements {
   static constexpr std::uint32_t count = 64;
 
   struct Entry {
-    std::uint32_t instance = nothing;
-    std::uint32_t number = nothing;
+    std::uint32_t instance = invalid_index;
+    std::uint32_t number = invalid_index;
     ComposedPlacement placement;
   };
   std::unique_ptr<Entry[]> entries_;

@@ -66,9 +66,9 @@ class IntervalFilter::Search {
         near_(filter, program, lines_, rays.asked, workspace, steps),
         steps_(steps) {}
 
-  [[gnu::always_inline]] BoundaryChanges<Real> find(std::span<const Leaf> leaves,
-                                                    std::span<const FaceSurface> faces,
-                                                    std::uint32_t first_leaf) {
+  [[gnu::always_inline]] BoundaryTransitions<Real> find(std::span<const Leaf> leaves,
+                                                        std::span<const FaceSurface> faces,
+                                                        std::uint32_t first_leaf) {
     gather(-least(select(lines_.asked(), -lines_.lines().certain_from, broadcast<Real>(infinity))));
     if (is_too_much()) return changes_;
     Mask asked = lines_.asked();
@@ -116,7 +116,7 @@ class IntervalFilter::Search {
         const Real next = root_possible_from(t, value);
         const Mask there = going && next == t;
         if (any(there)) {
-          const Mask unseen = set_change(value, t, there);
+          const Mask unseen = set_transition(value, t, there);
           going = (going && !there) || unseen;
           if (any(unseen)) gather(-infinity);
         }
@@ -131,7 +131,7 @@ class IntervalFilter::Search {
 
   /// Notes the changes at the ends of leaves that begin at `from`, where there is just one and it
   /// is certain. Returns the rays of which that end reaches beyond the horizon.
-  Mask set_change(bool value, const Real& from, Mask rays) {
+  Mask set_transition(bool value, const Real& from, Mask rays) {
     Mask unseen{};
     rays = rays && from > lines_.lines().certain_from;
     for (const NearLeaf<Real>& leaf : near_.leaves()) {
@@ -185,7 +185,7 @@ class IntervalFilter::Search {
       found->interval.set_outside(ray);
       return true;
     }
-    if (found == near.end() || !goes_into(index, start.face, lane) ||
+    if (found == near.end() || !starts_inwards(index, start.face, lane) ||
         !lines_.is_inside_soon(found->interval, lane)) {
       return false;
     }
@@ -193,8 +193,8 @@ class IntervalFilter::Search {
     return true;
   }
 
-  bool goes_into(std::uint32_t leaf, std::uint32_t face, std::uint32_t lane) const {
-    return lines_.goes_into(filter_.solid(leaf), face, lane);
+  bool starts_inwards(std::uint32_t leaf, std::uint32_t face, std::uint32_t lane) const {
+    return lines_.starts_inwards(filter_.solid(leaf), face, lane);
   }
 
   /// Returns whether a leaf must be outside to make for a value of the root.
@@ -214,14 +214,14 @@ class IntervalFilter::Search {
         first = min(first, of_child);
       }
     };
-    for (std::uint32_t i = node.first_leaf; i != no_item;) {
+    for (std::uint32_t i = node.first_leaf; i != invalid_index;) {
       const NearLeaf<Real>& leaf = near_.leaves()[i];
       take(wants_outside(leaf, value) ? leaf.interval.outside_from(t)
                                       : leaf.interval.inside_from(t));
       i = leaf.next;
       ++looked_at_;
     }
-    for (std::uint32_t i = node.first_node; i != no_item; i = near_.node(i).next) {
+    for (std::uint32_t i = node.first_node; i != invalid_index; i = near_.node(i).next) {
       take(possible_from(near_.node(i), t, value));
     }
     return needs_all ? t : first;
@@ -232,7 +232,7 @@ class IntervalFilter::Search {
   /// path.
   Mask depends_on(const NearLeaf<Real>& open, const Real& from, const Real& to) {
     Mask result = lanes_of_mask<Real>(~std::uint32_t{0});
-    for (std::uint32_t i = open.node; i != no_item; i = near_.node(i).parent) {
+    for (std::uint32_t i = open.node; i != invalid_index; i = near_.node(i).parent) {
       near_.node(i).is_on_path = true;
       if (near_.node(i).deciding > 0) result = Mask{};
     }
@@ -244,13 +244,13 @@ class IntervalFilter::Search {
                                                   leaf.interval.is_outside(from, to));
       if (!any(result)) break;
     }
-    for (std::uint32_t i = open.node; i != no_item; i = near_.node(i).parent) {
+    for (std::uint32_t i = open.node; i != invalid_index; i = near_.node(i).parent) {
       near_.node(i).is_on_path = false;
     }
-    std::uint32_t on_path = no_item;
-    for (std::uint32_t i = open.node; i != no_item && any(result); i = near_.node(i).parent) {
+    std::uint32_t on_path = invalid_index;
+    for (std::uint32_t i = open.node; i != invalid_index && any(result); i = near_.node(i).parent) {
       const NearNode& node = near_.node(i);
-      for (std::uint32_t k = node.first_node; k != no_item; k = near_.node(k).next) {
+      for (std::uint32_t k = node.first_node; k != invalid_index; k = near_.node(k).next) {
         if (k != on_path) result = result && has_value(near_.node(k), node.all, from, to);
       }
       on_path = i;
@@ -272,10 +272,10 @@ class IntervalFilter::Search {
     const auto take = [&](const Mask& of_child) {
       result = needs_all ? (result && of_child) : result || of_child;
     };
-    for (std::uint32_t i = node.first_leaf; i != no_item; i = near_.leaves()[i].next) {
+    for (std::uint32_t i = node.first_leaf; i != invalid_index; i = near_.leaves()[i].next) {
       take(has_value(near_.leaves()[i], value, from, to));
     }
-    for (std::uint32_t i = node.first_node; i != no_item; i = near_.node(i).next) {
+    for (std::uint32_t i = node.first_node; i != invalid_index; i = near_.node(i).next) {
       take(has_value(near_.node(i), value, from, to));
     }
     return result;
@@ -294,26 +294,26 @@ class IntervalFilter::Search {
   EnclosedLines<Real> lines_;
   NearLeaves<Real> near_;
   const RaySteps& steps_;
-  BoundaryChanges<Real> changes_;
+  BoundaryTransitions<Real> changes_;
   std::size_t batch_ = 8;
   std::uint64_t looked_at_ = 0;
 };
 
 template <class Real>
-BoundaryChanges<Real> IntervalFilter::first_changes(const IntervalFilterRays<Real>& rays,
-                                                    const CsgProgram& program,
-                                                    std::span<const Leaf> leaves,
-                                                    std::span<const FaceSurface> faces,
-                                                    NearLeavesWorkspace& workspace,
-                                                    const RaySteps& steps) const {
+BoundaryTransitions<Real> IntervalFilter::first_transitions(const IntervalFilterRays<Real>& rays,
+                                                            const CsgProgram& program,
+                                                            std::span<const Leaf> leaves,
+                                                            std::span<const FaceSurface> faces,
+                                                            NearLeavesWorkspace& workspace,
+                                                            const RaySteps& steps) const {
   Search<Real> search(*this, rays, program, workspace, steps);
   return search.find(leaves, faces, program.first_leaf);
 }
 
-template BoundaryChanges<double> IntervalFilter::first_changes(
+template BoundaryTransitions<double> IntervalFilter::first_transitions(
     const IntervalFilterRays<double>&, const CsgProgram&, std::span<const Leaf>,
     std::span<const FaceSurface>, NearLeavesWorkspace&, const RaySteps&) const;
-template BoundaryChanges<Lanes> IntervalFilter::first_changes(
+template BoundaryTransitions<Lanes> IntervalFilter::first_transitions(
     const IntervalFilterRays<Lanes>&, const CsgProgram&, std::span<const Leaf>,
     std::span<const FaceSurface>, NearLeavesWorkspace&, const RaySteps&) const;
 

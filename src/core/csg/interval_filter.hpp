@@ -44,9 +44,9 @@ struct IntervalFilterRays {
   std::span<const StartPoint> starts;  ///< of these
 };
 
-/// BoundaryChanges are what a filter says of each of the rays.
+/// BoundaryTransitions are what a filter says of each of the rays.
 template <class Real>
-struct BoundaryChanges {
+struct BoundaryTransitions {
   using Mask = MaskOf<Real>;
 
   Mask none{};  ///< no crossing of the object's boundary counts
@@ -60,7 +60,8 @@ struct BoundaryChanges {
   Real to{};
 };
 
-inline BoundaryChanges<double> lane_of(const BoundaryChanges<Lanes>& changes, std::size_t lane) {
+inline BoundaryTransitions<double> lane_of(const BoundaryTransitions<Lanes>& changes,
+                                           std::size_t lane) {
   return {.none = changes.none[lane],
           .one = changes.one[lane],
           .into_object = changes.into_object[lane],
@@ -92,10 +93,12 @@ class IntervalFilter {
   /// Finds the first crossings of the boundary with t_min < t <= limit that count, as CsgEvaluation
   /// finds them. `leaves` are those of `program`, the filter's own.
   template <class Real>
-  BoundaryChanges<Real> first_changes(const IntervalFilterRays<Real>& rays,
-                                      const CsgProgram& program, std::span<const Leaf> leaves,
-                                      std::span<const FaceSurface> faces,
-                                      NearLeavesWorkspace& workspace, const RaySteps& steps) const;
+  BoundaryTransitions<Real> first_transitions(const IntervalFilterRays<Real>& rays,
+                                              const CsgProgram& program,
+                                              std::span<const Leaf> leaves,
+                                              std::span<const FaceSurface> faces,
+                                              NearLeavesWorkspace& workspace,
+                                              const RaySteps& steps) const;
 
   bool is_complemented(std::uint32_t leaf) const { return leaves_[leaf].complemented; }
   /// Returns what encloses a leaf in the world, by its number within the object.

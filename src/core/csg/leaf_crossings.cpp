@@ -9,7 +9,7 @@ namespace crt::core {
 
 FaceStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
                         std::span<const FaceSurface> face_surfaces, const StartPoint& start) {
-  if (start.surface == nothing) return {};
+  if (start.surface == invalid_index) return {};
   const auto on_face = [&](std::uint32_t face) {
     const bool outside =
         (start.side == Side::outside) != leaf.surface_of(face, face_surfaces).flipped;

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/invalid_index.hpp"
 #include "core/csg/enclosed_lines.hpp"
 #include "core/csg/interval_filter.hpp"
 #include "core/csg/program.hpp"
@@ -16,15 +17,13 @@
 
 namespace crt::core {
 
-inline constexpr std::uint32_t no_item = 0xffffffffu;
-
 /// A NearLeaf is a leaf that some line comes near.
 template <class Real>
 struct NearLeaf {
   Enclosure<Real> interval;
-  std::uint32_t leaf = 0;        ///< its number within the object
-  std::uint32_t node = 0;        ///< the node above it
-  std::uint32_t next = no_item;  ///< the next leaf below the same node
+  std::uint32_t leaf = 0;              ///< its number within the object
+  std::uint32_t node = 0;              ///< the node above it
+  std::uint32_t next = invalid_index;  ///< the next leaf below the same node
   bool complemented = false;
 };
 
@@ -32,13 +31,13 @@ struct NearLeaf {
 struct NearNode {
   bool all = false;            ///< whether it is true if all of its children are, else if any is
   std::uint32_t deciding = 0;  ///< its other children that alone decide its value
-  std::uint32_t first_leaf = no_item;
-  std::uint32_t last_leaf = no_item;
-  std::uint32_t first_node = no_item;
-  std::uint32_t last_node = no_item;
-  std::uint32_t parent = no_item;
-  std::uint32_t next = no_item;  ///< the next node below the same one
-  bool is_on_path = false;       ///< for whoever follows a path up to the root
+  std::uint32_t first_leaf = invalid_index;
+  std::uint32_t last_leaf = invalid_index;
+  std::uint32_t first_node = invalid_index;
+  std::uint32_t last_node = invalid_index;
+  std::uint32_t parent = invalid_index;
+  std::uint32_t next = invalid_index;  ///< the next node below the same one
+  bool is_on_path = false;             ///< for whoever follows a path up to the root
 };
 
 /// A NearLeavesWorkspace is memory that one thread reuses from ray to ray.
@@ -98,7 +97,7 @@ class NearLeaves {
     work_.nodes_.clear();
     work_.openings_.clear();
     slot_of(0);
-    if (program.leaf_count() <= most_small) {
+    if (program.leaf_count() <= max_small) {
       add_all();
       link_added();
       return;
@@ -143,7 +142,7 @@ class NearLeaves {
 
  private:
   /// An object with up to this many leaves is small.
-  static constexpr std::uint32_t most_small = 32;
+  static constexpr std::uint32_t max_small = 32;
 
   static bool is_later(const NearLeavesWorkspace::Opening& a,
                        const NearLeavesWorkspace::Opening& b) {
@@ -183,7 +182,7 @@ class NearLeaves {
   }
 
   void add(std::uint32_t leaf) {
-    if (count_ == leaves_.size()) leaves_.resize(2 * count_ + most_small);
+    if (count_ == leaves_.size()) leaves_.resize(2 * count_ + max_small);
     NearLeaf<Real>& near = leaves_[count_];
     if (!lines_.enclose(filter_.solid(leaf), near.interval)) return;
     near.leaf = leaf;
@@ -191,15 +190,15 @@ class NearLeaves {
   }
 
   void add_all() {
-    if (leaves_.size() < program_.leaf_count()) leaves_.resize(most_small);
+    if (leaves_.size() < program_.leaf_count()) leaves_.resize(max_small);
     for (std::uint32_t leaf = 0; leaf < program_.leaf_count(); ++leaf) add(leaf);
   }
 
   /// Links the leaves that were added to the nodes above them. It does so afterwards, so that the
   /// processor encloses several leaves at once.
   void link_added() {
-    std::uint32_t node = no_item;
-    std::uint32_t slot = no_item;
+    std::uint32_t node = invalid_index;
+    std::uint32_t slot = invalid_index;
     for (; linked_ < count_; ++linked_) {
       NearLeaf<Real>& near = leaves_[linked_];
       if (const std::uint32_t above = program_.leaf_parents[near.leaf]; above != node) {
@@ -208,11 +207,11 @@ class NearLeaves {
       }
       near.complemented = filter_.is_complemented(near.leaf);
       near.node = slot;
-      near.next = no_item;
+      near.next = invalid_index;
       NearNode& parent = work_.nodes_[slot];
       take(parent, near.complemented);
       const auto index = static_cast<std::uint32_t>(linked_);
-      if (parent.first_leaf == no_item) {
+      if (parent.first_leaf == invalid_index) {
         parent.first_leaf = index;
       } else {
         leaves_[parent.last_leaf].next = index;
@@ -235,7 +234,7 @@ class NearLeaves {
     work_.nodes_[index].parent = above;
     NearNode& parent = work_.nodes_[above];
     take(parent, node.count_outside >= node.needed);
-    if (parent.first_node == no_item) {
+    if (parent.first_node == invalid_index) {
       parent.first_node = index;
     } else {
       work_.nodes_[parent.last_node].next = index;

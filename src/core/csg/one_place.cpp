@@ -30,14 +30,14 @@ double reach_of_place(const PlacedLeaf& leaf, const WorldRay& ray, const Crossin
   // An error of more than the standard tier's own bound is one that the shape states. Where the ray
   // is all but parallel to the surface, the slope does not tell.
   constexpr double largest_rounding = 32 * unit_roundoff;
-  constexpr double least_slope = most_reach;
+  constexpr double least_slope = max_reach;
   const bool is_stated = crossing.error * slope > largest_rounding * size &&
                          slope > least_slope * glm::length(ray.direction);
   if (is_stated || !(slope >= 0)) return crossing.error;
   const double across = roundings_of_place * unit_roundoff * size;
   const double farthest = std::fma(std::abs(crossing.t), largest_component(ray.direction),
                                    largest_component(ray.origin));
-  const double most = most_reach * std::min(size, farthest) / glm::length(ray.direction);
+  const double most = max_reach * std::min(size, farthest) / glm::length(ray.direction);
   const double reach = std::max(crossing.error, slope * most > across ? across / slope : most);
   return std::max(std::min(reach, most), std::min(crossing.error, 2 * rounding_of(crossing.t)));
 }

@@ -25,8 +25,8 @@ namespace crt::core {
 class BvhChild {
  public:
   /// There may be fewer boxes than this, and up to so many in a leaf.
-  static constexpr std::uint32_t most_items = std::uint32_t{1} << 28;
-  static constexpr std::uint32_t most_a_leaf = 8;
+  static constexpr std::uint32_t max_items = std::uint32_t{1} << 28;
+  static constexpr std::uint32_t max_a_leaf = 8;
 
   static BvhChild leaf(std::uint32_t index, std::uint32_t count = 1) {
     return BvhChild(index | (count - 1) << count_place | leaf_bit);
@@ -35,8 +35,8 @@ class BvhChild {
   BvhChild() = default;
 
   bool is_leaf() const { return (bits_ & leaf_bit) != 0; }
-  std::uint32_t index() const { return is_leaf() ? bits_ & (most_items - 1) : bits_; }
-  std::uint32_t count() const { return 1 + (bits_ >> count_place & (most_a_leaf - 1)); }
+  std::uint32_t index() const { return is_leaf() ? bits_ & (max_items - 1) : bits_; }
+  std::uint32_t count() const { return 1 + (bits_ >> count_place & (max_a_leaf - 1)); }
   friend bool operator<(BvhChild a, BvhChild b) { return a.bits_ < b.bits_; }
   friend bool operator==(BvhChild, BvhChild) = default;
 

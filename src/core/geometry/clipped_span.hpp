@@ -63,7 +63,7 @@ class ClippedSpan {
   }
 
  private:
-  bool starts_on_face() const { return start_.face != no_face && start_.on_face; }
+  bool starts_on_face() const { return start_.face != invalid_index && start_.on_face; }
 
   FaceStart start_;
   double shortest_;

@@ -91,7 +91,7 @@ inline Crossing exact_crossing(const DoubleDouble& t, Crossing crossing) {
 
 /// Returns whether the crossing is the ray's own start, which is at 0 by identity.
 inline bool is_start(const ExactRay& ray, const Crossing& crossing) {
-  return ray.near.start.face != no_face && crossing.t == 0 && crossing.error == 0;
+  return ray.near.start.face != invalid_index && crossing.t == 0 && crossing.error == 0;
 }
 
 /// Returns the root of a polynomial in t that a crossing is.
@@ -100,7 +100,7 @@ inline std::optional<RealRoot> root_at(const ExactRay& ray, const Crossing& cros
   const DoubleDouble t(crossing.t, crossing.t_low);
   std::optional<RealRoot> root = RealRoot::near(polynomial, t, crossing.error);
   // For a ray from a surface, crossings may be reported that the exact line does not have.
-  if (root || ray.near.start.face != no_face) return root;
+  if (root || ray.near.start.face != invalid_index) return root;
   return RealRoot::of_index(polynomial, crossing.root);
 }
 

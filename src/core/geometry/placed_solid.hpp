@@ -17,8 +17,8 @@ class Shape;
 /// A FaceStarts says which lines start on the surfaces of a solid's faces, by identity.
 template <class Real>
 struct FaceStarts {
-  static constexpr std::size_t most_faces = 6;
-  std::array<MaskOf<Real>, most_faces> on{};
+  static constexpr std::size_t max_faces = 6;
+  std::array<MaskOf<Real>, max_faces> on{};
 };
 
 /// A PlacedSolid is a solid as conservative tests see it: in the world, by doubles. All is for one
@@ -41,8 +41,8 @@ class PlacedSolid {
 
   /// Returns which lines surely come into the solid where they start: on a face, by identity, and
   /// to its inner side. All that is open then is where they leave.
-  virtual bool goes_into(std::uint32_t face, const FilterLine<double>& line) const = 0;
-  virtual LaneMask goes_into(std::uint32_t face, const FilterLine<Lanes>& lines) const = 0;
+  virtual bool starts_inwards(std::uint32_t face, const FilterLine<double>& line) const = 0;
+  virtual LaneMask starts_inwards(std::uint32_t face, const FilterLine<Lanes>& lines) const = 0;
 
   /// Returns which lines leave the solid for good. They start on it and go outwards.
   virtual bool leaves_for_good(const FilterLine<double>& line) const = 0;
@@ -73,7 +73,8 @@ template <class Solid, class Real>
 }
 template <class Solid, class Real>
 MaskOf<Real> lines_into(const Solid& solid, std::uint32_t face, const FilterLine<Real>& line) {
-  if constexpr (requires { goes_into(solid, face, line); }) return goes_into(solid, face, line);
+  if constexpr (requires { starts_inwards(solid, face, line); })
+    return starts_inwards(solid, face, line);
   return MaskOf<Real>{};
 }
 template <class Solid, class Real>
@@ -97,10 +98,10 @@ class PlacedSolidOf final : public PlacedSolid {
                const FaceStarts<Lanes>* starts, Enclosure<Lanes>& part) const override {
     return enclose_lines(solid_, lines, asked, starts, part);
   }
-  bool goes_into(std::uint32_t face, const FilterLine<double>& line) const override {
+  bool starts_inwards(std::uint32_t face, const FilterLine<double>& line) const override {
     return lines_into(solid_, face, line);
   }
-  LaneMask goes_into(std::uint32_t face, const FilterLine<Lanes>& lines) const override {
+  LaneMask starts_inwards(std::uint32_t face, const FilterLine<Lanes>& lines) const override {
     return lines_into(solid_, face, lines);
   }
   bool leaves_for_good(const FilterLine<double>& line) const override {

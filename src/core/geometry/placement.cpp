@@ -165,7 +165,7 @@ double Placement::inverse_error() const {
 
 namespace {
 
-void split(const DoubleDoubleLanes& lanes, Vec3& high, Vec3& low) {
+void split_in_two(const DoubleDoubleLanes& lanes, Vec3& high, Vec3& low) {
   high = {lanes.hi[0], lanes.hi[1], lanes.hi[2]};
   low = {lanes.lo[0], lanes.lo[1], lanes.lo[2]};
 }
@@ -178,8 +178,8 @@ DoubleDoubleLanes Placement::turned_by_rows(const Vec3& v) const {
 
 void Placement::move_to_object(ObjectRay& ray) const {
   if (kind_ == Kind::affine) {
-    split(turned_by_rows(ray.origin) + columns_[3], ray.origin, ray.origin_low);
-    split(turned_by_rows(ray.direction), ray.direction, ray.direction_low);
+    split_in_two(turned_by_rows(ray.origin) + columns_[3], ray.origin, ray.origin_low);
+    split_in_two(turned_by_rows(ray.direction), ray.direction, ray.direction_low);
     return;
   }
   for (int axis = 0; axis < 3; ++axis) {

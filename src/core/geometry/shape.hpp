@@ -76,7 +76,7 @@ struct CoreSegment {
   double from_reach = 0;
   double to_reach = 0;
 
-  double most_reach() const { return std::max(from_reach, to_reach); }
+  double max_reach() const { return std::max(from_reach, to_reach); }
 };
 
 /// A BoundingSphere is a sphere around something that fills most of it.
@@ -130,13 +130,13 @@ class Shape {
   /// (double) root is left out, and so is a span of length zero. For a surface without an inside it
   /// returns false.
   ///
-  /// If ray.start.face is not no_face, the ray starts on the surface of that face. The root there
-  /// is *exactly* t = 0, by removing it from the equation and not by comparing. ray.start.side says
-  /// to which side of the surface (as the face's outward normal has it) the ray leaves, and the
-  /// crossings agree with that. If it starts on the face itself (on_face), it also starts within
-  /// what the other faces bound, whatever rounding says next to an edge. Then it has no crossing at
-  /// t > 0 if it leaves a convex solid outwards, and exactly one if inwards. Only a mesh may leave
-  /// out that start, for a ray that leaves from an edge past all triangles.
+  /// If ray.start.face is not invalid_index, the ray starts on the surface of that face. The root
+  /// there is *exactly* t = 0, by removing it from the equation and not by comparing.
+  /// ray.start.side says to which side of the surface (as the face's outward normal has it) the ray
+  /// leaves, and the crossings agree with that. If it starts on the face itself (on_face), it also
+  /// starts within what the other faces bound, whatever rounding says next to an edge. Then it has
+  /// no crossing at t > 0 if it leaves a convex solid outwards, and exactly one if inwards. Only a
+  /// mesh may leave out that start, for a ray that leaves from an edge past all triangles.
   virtual bool crossings(const ObjectRay& ray, CrossingList& out) const = 0;
 
   /// Returns whether span() ever finds anything where a placement puts the shape.
@@ -155,8 +155,9 @@ class Shape {
 
   /// Finds where lines leave that start on the surface and go in, as crossings() does, where it can
   /// do so side by side. No transform moves them.
-  virtual void exit(const PlainRay<double>& /*line*/, SpanEnd<double>& /*end*/) const {}
-  virtual void exit(const RayLanes& /*lines*/, SpanEnd<Lanes>& /*end*/) const {}
+  virtual void exit_from_surface(const PlainRay<double>& /*line*/, SpanEnd<double>& /*end*/) const {
+  }
+  virtual void exit_from_surface(const RayLanes& /*lines*/, SpanEnd<Lanes>& /*end*/) const {}
 
   /// Returns which of the wanted rays have no crossing at t > 0. They start on the surface and go
   /// out. What is said of others means nothing.
@@ -208,7 +209,7 @@ class Shape {
   }
 
   /// A shape of more faces is compared with others face by face only as far as it has listed them.
-  static constexpr std::uint32_t most_compared_faces = std::uint32_t{1} << 16;
+  static constexpr std::uint32_t max_compared_faces = std::uint32_t{1} << 16;
   /// Returns how many faces, from the first on, are compared with those of all other shapes. The
   /// rest are so many, and so rarely coincide with any, that faces_near() finds those that may.
   virtual std::uint32_t listed_face_count() const { return face_count(); }

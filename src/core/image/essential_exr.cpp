@@ -65,9 +65,9 @@ bool is_plausible(std::int64_t width, std::int64_t height, std::size_t file_size
   if (static_cast<std::uint64_t>(width) > most_image_pixels / static_cast<std::uint64_t>(height))
     return false;
   // Each block of rows has an offset of 8 bytes and at least as much of a header.
-  constexpr std::uint64_t most_rows_a_block = 256;
+  constexpr std::uint64_t max_rows_a_block = 256;
   constexpr std::uint64_t least_bytes_a_block = 16;
-  return static_cast<std::uint64_t>(height) / most_rows_a_block * least_bytes_a_block <= file_size;
+  return static_cast<std::uint64_t>(height) / max_rows_a_block * least_bytes_a_block <= file_size;
 }
 
 void check_attribute(const Attribute& attribute, std::size_t file_size, const SizeLimit& limit) {

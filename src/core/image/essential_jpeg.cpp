@@ -58,7 +58,7 @@ std::size_t scan_length(FileView data) {
 
 FileBytes essential_jpeg(FileView content, const SizeLimit& limit) {
   // A file of many scans takes long to read for its size. Encoders make about ten.
-  constexpr int most_scans = 100;
+  constexpr int max_scans = 100;
   int scans = 0;
   FileBytes result;
   const auto keep = [&](FileView bytes) {
@@ -90,7 +90,7 @@ FileBytes essential_jpeg(FileView content, const SizeLimit& limit) {
     if (!is_metadata(marker)) keep(rest.first(length + 2));
     rest = rest.subspan(length + 2);
     if (marker == start_of_scan) {
-      if (++scans > most_scans) throw RefusedFile("it has too many scans");
+      if (++scans > max_scans) throw RefusedFile("it has too many scans");
       const std::size_t coded = scan_length(rest);
       keep(rest.first(coded));
       rest = rest.subspan(coded);

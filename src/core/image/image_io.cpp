@@ -258,7 +258,7 @@ Image read_image(const std::filesystem::path& path, std::uint64_t most_pixels) {
   constexpr std::size_t longest_signature = 16;
   try {
     format_of(read_file_start(path, longest_signature), path.string());
-    return decode_content(read_whole_file(path, limit.most_file_bytes()), path.string(), limit);
+    return decode_content(read_whole_file(path, limit.max_file_bytes()), path.string(), limit);
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "read", path.string(), "out of memory");
   }

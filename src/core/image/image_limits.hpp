@@ -19,17 +19,17 @@ class SizeLimit {
   explicit SizeLimit(std::uint64_t most_pixels);
 
   /// Returns the most pixels that a picture may have.
-  std::size_t most_pixels() const { return most_pixels_; }
+  std::size_t most_pixels() const { return max_pixels_; }
   /// Returns the most bytes that its file may have.
-  std::size_t most_file_bytes() const;
+  std::size_t max_file_bytes() const;
   bool allows(std::uint64_t width, std::uint64_t height) const {
-    return height == 0 || width <= most_pixels_ / height;
+    return height == 0 || width <= max_pixels_ / height;
   }
   /// Throws RefusedFile, or TooLarge if it is the caller who allows no more.
   void check(std::uint64_t width, std::uint64_t height) const;
 
  private:
-  std::size_t most_pixels_;
+  std::size_t max_pixels_;
 };
 
 }  // namespace crt::core

@@ -19,14 +19,14 @@ namespace crt::core {
 namespace {
 
 bool any_surface_is_shared(const CompiledScene& scene) {
-  std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
+  std::vector<std::uint32_t> owners(scene.face_surfaces.size(), invalid_index);
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     const SceneObject& solid = scene.objects[object];
     if (solid.is_instance()) continue;
     for (const Leaf& leaf : scene.leaves_of(solid)) {
       for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
         std::uint32_t& owner = owners[scene.face_surfaces[leaf.first_face + face].surface];
-        if (owner != nothing && owner != object) return true;
+        if (owner != invalid_index && owner != object) return true;
         owner = object;
       }
     }
@@ -43,7 +43,7 @@ double margin_of(const Bounds& total) {
 }
 
 std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Workers& workers) {
-  std::vector<std::uint32_t> enclosed(scene.leaves.size(), nothing);
+  std::vector<std::uint32_t> enclosed(scene.leaves.size(), invalid_index);
   const auto count = static_cast<std::uint32_t>(scene.objects.size());
   for_ranges(count, items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -92,7 +92,7 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
   boxes.reserve(bounded.size());
   for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
   tree_ = std::make_unique<EmbreeTree>(boxes, total, workers.stop);
-  if (boxes.size() > FlatBoxList::most_boxes) return;
+  if (boxes.size() > FlatBoxList::max_boxes) return;
   for (Bounds& box : boxes) box = box.grown(margin_);
   flat_box_list_ = FlatBoxList(boxes);
 }
@@ -131,19 +131,20 @@ void Accelerator::prefetch_surface_points(std::span<const RayHit, packet_size> h
 }
 
 std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
-  if (start.leaf >= enclosed_.size() || enclosed_[start.leaf] == nothing) return nothing;
+  if (start.leaf >= enclosed_.size() || enclosed_[start.leaf] == invalid_index)
+    return invalid_index;
   const Leaf& start_leaf = leaf(start.leaf);
   const bool outwards =
       (start.side == Side::outside) != face_surface(start_leaf, start.face).flipped;
-  return outwards || !start_leaf.shape->is_solid() ? enclosed_[start.leaf] : nothing;
+  return outwards || !start_leaf.shape->is_solid() ? enclosed_[start.leaf] : invalid_index;
 }
 
 std::uint32_t Accelerator::entered_isolated(const StartPoint& start) const {
-  if (isolated_.empty() || start.leaf >= enclosed_.size()) return nothing;
+  if (isolated_.empty() || start.leaf >= enclosed_.size()) return invalid_index;
   const std::uint32_t object = enclosed_[start.leaf];
-  const bool enters =
-      object != nothing && isolated_[object] != nothing && left_for_good(start) == nothing;
-  return enters ? isolated_[object] : nothing;
+  const bool enters = object != invalid_index && isolated_[object] != invalid_index &&
+                      left_for_good(start) == invalid_index;
+  return enters ? isolated_[object] : invalid_index;
 }
 
 bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit, RayWorkspace& work) const {

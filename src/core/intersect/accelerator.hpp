@@ -51,11 +51,11 @@ class Accelerator {
                             const Opacity& opacity, Packets packets, RayWorkspace& work) const;
   /// Appends for each solid around the ray's start its next crossing, unsorted. A solid that the
   /// ray never leaves counts as left at infinity.
-  void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+  void containing_solids(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
   /// Finds the innermost solid around a point.
-  Surrounding innermost(const Vec3& point, RayWorkspace& work) const;
+  ContainingSolid innermost(const Vec3& point, RayWorkspace& work) const;
   /// Finds whether a ray starts inside of one solid object, and where it leaves that.
-  Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
+  SolidExit find_exit(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
   /// Returns whether all surfaces surely pass by a box. It looks at all objects.
   bool all_pass_by(const Bounds& box) const;
@@ -142,7 +142,7 @@ class Accelerator {
   PacketStartsOf<1> noted_starts(const WorldRay& ray, RayMask = 1) const;
 
   /// Returns whether there are so few boxes that all of them are looked at.
-  bool has_flat_box_list() const { return bounded_.list.size() <= FlatBoxList::most_boxes; }
+  bool has_flat_box_list() const { return bounded_.list.size() <= FlatBoxList::max_boxes; }
   /// Returns whether some rays are to be followed as a packet.
   bool pay_together(const RayBatch& rays, RayMask some, Packets packets) const;
   /// Returns the box around an isolated object in which there is nothing else.

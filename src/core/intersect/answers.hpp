@@ -10,18 +10,18 @@
 
 namespace crt::core {
 
-/// A Stay says whether a ray starts inside of a solid, and where it leaves that; at infinity if
-/// never.
-struct Stay {
+/// A SolidExit says whether a ray starts inside of a solid, and where it leaves that; at infinity
+/// if never.
+struct SolidExit {
   bool inside = false;
   RayHit exit;
 };
 
-/// A Surrounding is the innermost solid around a point, with the first of its leaves that hold the
-/// point. There is none if `object` is nothing.
-struct Surrounding {
-  std::uint32_t object = nothing;
-  std::uint32_t leaf = nothing;
+/// A ContainingSolid is the innermost solid around a point, with the first of its leaves that hold
+/// the point. There is none if `object` is nothing.
+struct ContainingSolid {
+  std::uint32_t object = invalid_index;
+  std::uint32_t leaf = invalid_index;
 };
 
 /// An Opacity says which things let no light through.

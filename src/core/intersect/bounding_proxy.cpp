@@ -21,10 +21,10 @@ std::unique_ptr<const PlacedSolid> cylinder_around(const Shape& shape, const Pla
   const Vec3 axis = to - from;
   const Transform& world = placement.to_world();
   const double scale = placement.even_scale();
-  const double most_scale =
+  const double max_scale =
       std::sqrt(glm::dot(world.row_x, world.row_x) + glm::dot(world.row_y, world.row_y) +
                 glm::dot(world.row_z, world.row_z));
-  const double reach = segment->most_reach() * (scale > 0 ? scale : most_scale);
+  const double reach = segment->max_reach() * (scale > 0 ? scale : max_scale);
   constexpr double roundings = 0x1p-40;
   const double radius =
       reach + roundings * (reach + largest_component(from) + largest_component(to));
@@ -57,8 +57,8 @@ void bound_csg(const CompiledScene& scene, const SceneObject& object, Proxy& res
     const std::optional<EnclosedSphere> placed = around.placed(*leaf.placement);
     if (!placed || !(placed->radius < smallest)) continue;
     // Farther from the origin the rounding of where rays start is not small beside that margin.
-    constexpr double most_sizes = 0x1p20;
-    if (!(largest_component(placed->center) < most_sizes * placed->radius)) continue;
+    constexpr double max_sizes = 0x1p20;
+    if (!(largest_component(placed->center) < max_sizes * placed->radius)) continue;
     smallest = placed->radius;
     result.solid = std::make_unique<const PlacedSolidOf<EnclosedSphere>>(*placed);
     result.proxy.is_within = true;

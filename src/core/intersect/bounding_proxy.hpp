@@ -21,8 +21,8 @@ struct BoundingProxy {
   const Leaf* leaf = nullptr;
   const FaceSurface* faces = nullptr;  ///< of what the solid is made of
   std::uint32_t face_count = 0;        ///< 0 if no start on a face makes a difference
-  std::uint32_t object = nothing;
-  std::uint32_t leaf_index = nothing;  ///< of a lone leaf
+  std::uint32_t object = invalid_index;
+  std::uint32_t leaf_index = invalid_index;  ///< of a lone leaf
   /// The object is merely somewhere within the solid: only what misses that is sure.
   bool is_within = false;
 

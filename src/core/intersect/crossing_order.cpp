@@ -37,7 +37,7 @@ void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>
   for (std::size_t i = 1; i < numbers.size(); ++i) {
     const RayHit& first = crossings[numbers[i - 1]];
     RayHit& next = crossings[numbers[i]];
-    const bool is_one = next.surface == first.surface && next.surface != nothing;
+    const bool is_one = next.surface == first.surface && next.surface != invalid_index;
     if (is_one && next.root == first.root) take_place(next, first);
   }
   // An object's own crossings stay in order.
@@ -50,7 +50,7 @@ void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>
 
 /// A crossing looks for others of its object among so many before it, so that a place of very many
 /// costs no more than their number.
-constexpr std::size_t most_looked_at = 64;
+constexpr std::size_t max_looked_at = 64;
 
 /// Gives crossings of the standard tier that are at one place one t. Those of one object stay
 /// apart.
@@ -66,7 +66,7 @@ void unify_places(const CompiledScene& scene, const WorldRay& ray, std::span<Ray
       if (gap > tolerance) break;
       if (gap == 0) continue;
       const auto some = crossings.subspan(begin, end - begin);
-      const auto last = some.last(std::min(some.size(), most_looked_at));
+      const auto last = some.last(std::min(some.size(), max_looked_at));
       const auto is_its_own = [&](const RayHit& other) { return other.object == next.object; };
       if (std::any_of(last.begin(), last.end(), is_its_own)) break;
       if (!place) place.emplace(reach_of_place(scene, ray, first));

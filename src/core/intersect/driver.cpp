@@ -124,13 +124,13 @@ void Accelerator::test_around(const WorldRay& ray, RayWorkspace& work, const Tes
 PacketStartsOf<1> Accelerator::noted_starts(const WorldRay& ray, RayMask) const {
   const StartPoint& start = ray.start;
   PacketStartsOf<1> starts;
-  if (start.leaf == nothing) return starts;
+  if (start.leaf == invalid_index) return starts;
   starts.surfaces[0] = start.surface;
   starts.leaves[0] = start.leaf;
   starts.left_objects[0] = left_for_good(start);
   starts.on_surface = 1;
   starts.outwards = mask_of(start.side == Side::outside);
-  starts.left_some = mask_of(starts.left_objects[0] != nothing);
+  starts.left_some = mask_of(starts.left_objects[0] != invalid_index);
   return starts;
 }
 
@@ -138,13 +138,13 @@ PacketStarts Accelerator::noted_starts(const RayBatch& rays, RayMask some) const
   PacketStarts starts;
   // Neighbours start on the same face more often than not.
   StartPoint face;
-  std::uint32_t left = nothing;
+  std::uint32_t left = invalid_index;
   RayMask on_face = 0;
   const auto add_face = [&] {
-    if (face.leaf == nothing) return;
+    if (face.leaf == invalid_index) return;
     starts.on_surface |= on_face;
     if (face.side == Side::outside) starts.outwards |= on_face;
-    if (left != nothing) starts.left_some |= on_face;
+    if (left != invalid_index) starts.left_some |= on_face;
   };
   for_each_ray(some & rays.with_starts, [&](std::size_t i) {
     const StartPoint& start = rays.starts[i];
@@ -216,10 +216,10 @@ void Accelerator::all(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspac
   test_all(ray, work, [&](std::uint32_t object) { query.test(object); });
 }
 
-void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
-                              RayWorkspace& work) const {
+void Accelerator::containing_solids(const WorldRay& ray, std::vector<RayHit>& out,
+                                    RayWorkspace& work) const {
   test_around(ray, work, [&](std::uint32_t object) {
-    Stayed query(*this, ray, work);
+    ExitQuery query(*this, ray, work);
     query.test(object);
     if (!query.result.inside) return;
     out.push_back(end_at_place(compiled_, ray, query.result.exit));
@@ -228,16 +228,16 @@ void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
   });
 }
 
-Surrounding Accelerator::innermost(const Vec3& point, RayWorkspace& work) const {
+ContainingSolid Accelerator::innermost(const Vec3& point, RayWorkspace& work) const {
   // Along this direction the order of solids is found. It runs along no face that people make.
   const WorldRay line{.origin = point, .direction = {0.7390851, 0.5671433, 0.3628943}};
-  Surrounding innermost;
+  ContainingSolid innermost;
   double nearest = infinity;
   test_around(line, work, [&](std::uint32_t object) {
     Located query(*this, line, work);
     query.test(object);
-    if (query.leaf == nothing) return;
-    const bool is_inner = innermost.object == nothing || query.leaves_at < nearest ||
+    if (query.leaf == invalid_index) return;
+    const bool is_inner = innermost.object == invalid_index || query.leaves_at < nearest ||
                           (query.leaves_at == nearest && object > innermost.object);
     if (!is_inner) return;
     innermost = {object, query.leaf};
@@ -246,9 +246,10 @@ Surrounding Accelerator::innermost(const Vec3& point, RayWorkspace& work) const 
   return innermost;
 }
 
-Stay Accelerator::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
+SolidExit Accelerator::find_exit(const WorldRay& ray, std::uint32_t object,
+                                 RayWorkspace& work) const {
   work.csg.steps.begin_ray();
-  Stayed query(*this, ray, work);
+  ExitQuery query(*this, ray, work);
   query.test(object);
   query.result.exit = end_at_place(compiled_, ray, query.result.exit);
   return query.result;

@@ -18,7 +18,7 @@ struct SolidStarts {
   RayMask some = 0;     ///< those rays; without any the rest means nothing
   RayMask left = 0;     ///< the rays that surely leave the solid for good
   RayMask unknown = 0;  ///< the rays of which these tests cannot say where they meet the solid
-  std::array<RayMask, FaceStarts<double>::most_faces> on;  ///< by flat face
+  std::array<RayMask, FaceStarts<double>::max_faces> on;  ///< by flat face
 };
 
 /// A FilterRays applies the conservative tests to the rays of a packet. Crossings at the start of a

@@ -111,7 +111,7 @@ template <class Real>
 FirstCrossing<Real> isolated_exit(const Leaf& leaf, const Bounds& margin,
                                   const PlainRay<Real>& line, const Real& begin, const Real& end) {
   SpanEnd<Real> other;
-  leaf.shape->exit(line, other);
+  leaf.shape->exit_from_surface(line, other);
   if (!any(other.known)) return {};
   const Real reach = other.t + coincidence_tolerance(line, other.t, other.error);
   const auto ahead = other.known && other.t > begin && other.t < end;

@@ -10,7 +10,7 @@ namespace crt::core {
 namespace {
 
 /// At most so many boxes are looked at for one object.
-constexpr int most_looks = 1024;
+constexpr int max_looks = 1024;
 
 /// A BoxLevels has boxes of objects that lie in memory as they lie in space, then boxes around
 /// every few of them, and so on.
@@ -43,7 +43,7 @@ class BoxLevels {
 
   bool touches(const Bounds& margin, std::uint32_t object, std::size_t level, std::size_t index,
                int& looks) const {
-    if (++looks > most_looks) return true;
+    if (++looks > max_looks) return true;
     if (!box(level, index).touches(margin)) return false;
     if (level == 0) return objects_[index] != object;
     const std::size_t end = std::min((index + 1) * width, size(level - 1));
@@ -77,7 +77,7 @@ std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
                   [](const auto& material) { return lets_light_in(*material); });
   if (!is_light_let_in || bounded.empty()) return {};
 
-  std::vector<std::uint32_t> isolated(scene.objects.size(), nothing);
+  std::vector<std::uint32_t> isolated(scene.objects.size(), invalid_index);
   const BoxLevels boxes(scene, bounded);
   const auto is_isolated = [&](std::uint32_t index) {
     const SceneObject& object = scene.objects[index];
@@ -99,7 +99,7 @@ std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
     }
   });
   const bool is_none = std::all_of(isolated.begin(), isolated.end(),
-                                   [](std::uint32_t place) { return place == nothing; });
+                                   [](std::uint32_t place) { return place == invalid_index; });
   return is_none ? std::vector<std::uint32_t>() : isolated;
 }
 

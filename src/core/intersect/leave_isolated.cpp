@@ -29,7 +29,7 @@ RayMask Accelerator::leave_isolated(const BoundingProxy& solid, const Rays<Real>
 
 RayMask Accelerator::leave_isolated(const WorldRay& ray, RayHit& hit, RayWorkspace& work) const {
   const std::uint32_t place = entered_isolated(ray.start);
-  return place == nothing
+  return place == invalid_index
              ? 0
              : leave_isolated<double>(bounded_.list[place], ray, 0, 1, {&hit, 1}, work);
 }
@@ -42,13 +42,13 @@ RayMask Accelerator::leave_isolated(const RayBatch& rays, RayMask some,
     const std::size_t first = group * lane_count;
     std::array<std::uint32_t, lane_count> places;
     const StartPoint* before = nullptr;
-    std::uint32_t place = nothing;
+    std::uint32_t place = invalid_index;
     for_each_ray(to_come, [&](std::size_t lane) {
       const StartPoint& start = rays.starts[first + lane];
       if (before == nullptr || !start.is_to_same_side(*before)) place = entered_isolated(start);
       before = &start;
       places[lane] = place;
-      if (place == nothing) to_come &= ~(RayMask{1} << lane);
+      if (place == invalid_index) to_come &= ~(RayMask{1} << lane);
     });
     while (to_come != 0) {
       place = places[first_ray(to_come)];

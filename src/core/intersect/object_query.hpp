@@ -48,7 +48,7 @@ class ObjectQuery {
   }
   /// Takes the crossing of a CSG object that its interval filter has found. Returns whether there
   /// is a crossing where it should be.
-  bool test_change(std::uint32_t object_index, const BoundaryChanges<double>& change);
+  bool test_transition(std::uint32_t object_index, const BoundaryTransitions<double>& change);
 
  protected:
   ~ObjectQuery() = default;
@@ -75,7 +75,7 @@ class ObjectQuery {
 
     /// Returns the number that hits give to a surface.
     std::uint32_t surface(std::uint32_t in_scene) const {
-      return frame == nullptr ? in_scene : nothing;
+      return frame == nullptr ? in_scene : invalid_index;
     }
   };
 
@@ -116,7 +116,7 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
   bool inside = leaf_crossings(leaf, ray, object_ray, crossings, work_->leaf_escalations);
   // Another object's surface may coincide with the one that the ray starts on: then it is at the
   // start as well.
-  const bool starts_here = object_ray.start.face != no_face;
+  const bool starts_here = object_ray.start.face != invalid_index;
   std::size_t place = 0;
   for (; place < crossings.size(); ++place) {
     const Crossing& crossing = crossings[place];
@@ -185,8 +185,8 @@ void ObjectQuery<Kind>::test_instance(std::uint32_t object_index, const SceneObj
 }
 
 template <class Kind>
-bool ObjectQuery<Kind>::test_change(std::uint32_t object_index,
-                                    const BoundaryChanges<double>& change) {
+bool ObjectQuery<Kind>::test_transition(std::uint32_t object_index,
+                                        const BoundaryTransitions<double>& change) {
   const CompiledScene& scene = accelerator_->compiled();
   const std::uint32_t index =
       accelerator_->object(object_index).first_leaf + static_cast<std::uint32_t>(change.leaf);

@@ -16,8 +16,8 @@
 
 namespace crt::core {
 
-inline const BoundaryChanges<double>& lane_of(const BoundaryChanges<double>& change,
-                                              std::size_t /*lane*/) {
+inline const BoundaryTransitions<double>& lane_of(const BoundaryTransitions<double>& change,
+                                                  std::size_t /*lane*/) {
   return change;
 }
 
@@ -66,7 +66,7 @@ class ObjectTests {
     if (open == 0) return changed_;  // what follows looks farther away in memory
     if (const IntervalFilter* filter = accelerator_.filter(proxy.object)) {
       Packet::for_each_group(std::exchange(open, 0), [&](std::size_t group, RayMask lanes) {
-        open |= test_changes(proxy.object, *filter, group, lanes) << (group * group_size);
+        open |= test_transitions(proxy.object, *filter, group, lanes) << (group * group_size);
       });
     }
     for_each_ray(
@@ -282,19 +282,19 @@ class ObjectTests {
   }
 
   /// Tests a CSG object by its interval filter. Returns the lanes that this leaves open.
-  RayMask test_changes(std::uint32_t object, const IntervalFilter& filter, std::size_t group,
-                       RayMask asked) {
+  RayMask test_transitions(std::uint32_t object, const IntervalFilter& filter, std::size_t group,
+                           RayMask asked) {
     const CompiledScene& scene = accelerator_.compiled();
     const SceneObject& solid = scene.objects[object];
     const FilterLine<Real>& lines = packet_.groups[group];
-    const auto changes =
-        filter.first_changes<Real>({.lines = lines,
-                                    .limits = packet_.limits[group],
-                                    .asked = asked,
-                                    .on_surface = Packet::lanes(packet_.starts.on_surface, group),
-                                    .starts = packet_.source.group_starts(group)},
-                                   scene.programs[solid.program], scene.leaves_of(solid),
-                                   scene.face_surfaces, work_.near_leaves, work_.csg.steps);
+    const auto changes = filter.first_transitions<Real>(
+        {.lines = lines,
+         .limits = packet_.limits[group],
+         .asked = asked,
+         .on_surface = Packet::lanes(packet_.starts.on_surface, group),
+         .starts = packet_.source.group_starts(group)},
+        scene.programs[solid.program], scene.leaves_of(solid), scene.face_surfaces,
+        work_.near_leaves, work_.csg.steps);
     RayMask to_come = asked & mask_of(changes.one);
     RayMask open = asked & ~mask_of(changes.one || changes.none);
     if constexpr (any_will_do) {
@@ -309,15 +309,15 @@ class ObjectTests {
       const RayMask alike = to_come & same_way &
                             mask_of(changes.leaf == broadcast<Real>(lane_of(changes.leaf, first)));
       to_come &= ~alike;
-      open |= take_changes(object, group, alike, changes);
+      open |= take_transitions(object, group, alike, changes);
     }
     count_tests(asked & ~open);
     return open;
   }
 
   /// Takes changes of one leaf, all into it or all out of it. Returns where none has been found.
-  RayMask take_changes(std::uint32_t object, std::size_t group, RayMask alike,
-                       const BoundaryChanges<Real>& changes) {
+  RayMask take_transitions(std::uint32_t object, std::size_t group, RayMask alike,
+                           const BoundaryTransitions<Real>& changes) {
     const CompiledScene& scene = accelerator_.compiled();
     const FilterLine<Real>& lines = packet_.groups[group];
     const std::size_t first = first_ray(alike);
@@ -355,7 +355,7 @@ class ObjectTests {
     RayMask open = 0;
     for_each_ray(alike & ~resolved, [&](std::size_t lane) {
       ask(group * group_size + lane, [&](auto& query) {
-        if (!query.test_change(object, lane_of(changes, lane))) open |= RayMask{1} << lane;
+        if (!query.test_transition(object, lane_of(changes, lane))) open |= RayMask{1} << lane;
       });
     });
     return open;

@@ -86,12 +86,12 @@ class All final : public ObjectQuery<All> {
   std::vector<RayHit>& hits_;
 };
 
-/// A Stayed finds whether a ray starts inside of an object, and where it leaves that.
-class Stayed final : public ObjectQuery<Stayed> {
+/// A ExitQuery finds whether a ray starts inside of an object, and where it leaves that.
+class ExitQuery final : public ObjectQuery<ExitQuery> {
  public:
   using ObjectQuery::ObjectQuery;
   static constexpr bool takes_one = false;
-  Stay result;
+  SolidExit result;
 
   bool begin(bool starts_inside) {
     result.inside = starts_inside;
@@ -109,7 +109,7 @@ class Located final : public ObjectQuery<Located> {
   using ObjectQuery::ObjectQuery;
   static constexpr bool takes_one = false;
   static constexpr bool asks_for_leaf = true;
-  std::uint32_t leaf = nothing;
+  std::uint32_t leaf = invalid_index;
   double leaves_at = std::numeric_limits<double>::infinity();
 
   bool begin(bool starts_inside) { return starts_inside; }

@@ -10,7 +10,7 @@
 namespace crt::core {
 
 struct Packer::State {
-  static constexpr std::size_t most_in_block = 65535;
+  static constexpr std::size_t max_in_block = 65535;
 
   Write write;
   std::vector<std::uint8_t> piece{0x78, 0x01};  ///< the stream begins so
@@ -25,8 +25,8 @@ struct Packer::State {
       sum_of_sums = (sum_of_sums + sum) % modulus;
     }
     while (!bytes.empty()) {
-      if (block.size() == most_in_block) write_block(false);
-      const std::size_t count = std::min(bytes.size(), most_in_block - block.size());
+      if (block.size() == max_in_block) write_block(false);
+      const std::size_t count = std::min(bytes.size(), max_in_block - block.size());
       block.insert(block.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
       bytes = bytes.subspan(count);
     }

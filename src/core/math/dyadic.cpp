@@ -165,8 +165,8 @@ ScaledNumber Dyadic::rounded() const {
   if (limbs_.empty()) return {};
   // The three highest limbs hold more bits than a double-double. Half a limb is exactly a double.
   constexpr int half_bits = limb_bits / 2;
-  constexpr int most_limbs = 3;
-  const int lowest = std::max(base_, top() - most_limbs);
+  constexpr int max_limbs = 3;
+  const int lowest = std::max(base_, top() - max_limbs);
   DoubleDouble sum;
   for (int place = lowest; place < top(); ++place) {
     const Limb limb = limb_at(place);

@@ -155,8 +155,8 @@ std::vector<Dyadic> root_separators(const DyadicPolynomial& polynomial) {
   };
   while (!is_bound()) bound = bound + bound;
   std::vector<Dyadic> separators{-bound};
-  constexpr int most_halvings = 1200;
-  separate(polynomial, chain, -bound, bound, most_halvings, separators);
+  constexpr int max_halvings = 1200;
+  separate(polynomial, chain, -bound, bound, max_halvings, separators);
   return separators;
 }
 

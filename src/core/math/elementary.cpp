@@ -129,8 +129,8 @@ Reduced reduced_by_bits(double x) {
 
 /// Reduces any finite x >= 0.
 Reduced reduced(double x) {
-  constexpr double most_of_doubles = 0x1p25;
-  if (x >= most_of_doubles) return reduced_by_bits(x);
+  constexpr double max_of_doubles = 0x1p25;
+  if (x >= max_of_doubles) return reduced_by_bits(x);
   const double count = nearest(x * (2 / std::numbers::pi));
   // This is exact: both are multiples of one power of two, and what is left is small.
   const double rough = std::fma(-count, half_pi, x);

@@ -79,8 +79,8 @@ Interval series(double value, double slope, const Interval& x, double center) {
 /// Returns x >= 0 to a power of at least 1 that is whole, within four units in the last place.
 double power_of_size(double x, double exponent) {
   // Each product is off by half a unit.
-  constexpr double most_products = 8;
-  if (exponent > most_products) return elementary::pow(x, exponent);
+  constexpr double max_products = 8;
+  if (exponent > max_products) return elementary::pow(x, exponent);
   double result = x;
   for (double i = 1; i < exponent; ++i) result *= x;
   return result;

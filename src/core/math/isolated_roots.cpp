@@ -98,7 +98,7 @@ class SignsNear {
     const Bounded height = near_.value(y);
     constexpr double roundings = 16;
     constexpr double least = 0x1p-500;
-    constexpr int most_tries = 4;
+    constexpr int max_tries = 4;
     constexpr double widening = 0x1p12;
     const double least_off =
         roundings * (height.size() + height.error) / std::abs(slope_.value(y).value.hi) +
@@ -107,7 +107,7 @@ class SignsNear {
     const auto approach = [&](double way, const End& end, Dyadic& near_end, Dyadic& far_end) {
       bool passed_root = false;
       double off = least_off;
-      for (int i = 0; i < most_tries && off < 1; ++i, off *= widening) {
+      for (int i = 0; i < max_tries && off < 1; ++i, off *= widening) {
         const DoubleDouble here = y + DoubleDouble(way * off);
         if (!(way * (end.y - here).hi > 0)) break;
         const int sign = sign_at(here);

@@ -13,14 +13,14 @@ int compared(const Dyadic& a, const Dyadic& b) {
   return (a - b).sign();
 }
 
-constexpr int most_bits = 32;
+constexpr int max_bits = 32;
 
 /// Returns how many bits a straight line between the ends of an interval may well gain: about as
 /// many as the interval is narrower than its numbers are large.
 int bits_to_try(const Dyadic& low, const Dyadic& high) {
   const int width = (high - low).rounded().exponent;
   const int size = std::max(low.rounded().exponent, high.rounded().exponent);
-  return std::clamp((size - width) / 2, 1, most_bits);
+  return std::clamp((size - width) / 2, 1, max_bits);
 }
 
 Dyadic abs(const Dyadic& number) {
@@ -126,7 +126,7 @@ void RealRoot::narrow() {
   cut_at(from);
   if (!is_point() && compared(high_, to) > 0) cut_at(to);
   const bool is_there = is_point() || (compared(low_, from) == 0 && compared(high_, to) == 0);
-  bits_ = is_there ? std::min(2 * bits_, most_bits) : bits_ / 2;
+  bits_ = is_there ? std::min(2 * bits_, max_bits) : bits_ / 2;
 }
 
 int RealRoot::order_of_fractions(const RealRoot& a, const RealRoot& b) {

@@ -109,7 +109,7 @@ TransformChain compose(const TransformChain& second, const TransformChain& first
   if (second.is_product() && first.is_product() && is_exact(second.product, first.product))
     return result;
   const int bits = bits_of(second) + bits_of(first);
-  if (bits > most_chain_bits) return result;
+  if (bits > max_chain_bits) return result;
   result.second = &second;
   result.first = &first;
   result.bits = bits;

@@ -27,7 +27,7 @@ struct TransformChain {
 
 /// Numbers of more bits are rounded to those of the product. So exact products have a bounded size,
 /// however deeply transforms are nested.
-inline constexpr int most_chain_bits = 1024;
+inline constexpr int max_chain_bits = 1024;
 
 /// Returns the map that applies `first` and then `second`. Both must outlive it unless it
 /// is_product().

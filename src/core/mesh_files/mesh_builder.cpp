@@ -54,8 +54,8 @@ std::shared_ptr<const Image> MeshBuilder::picture(const std::string& name) {
 }
 
 void MeshBuilder::warn(const std::string& message) {
-  constexpr std::size_t most_warnings = 20;
-  if (warnings_.size() < most_warnings) warnings_.push_back(message);
+  constexpr std::size_t max_warnings = 20;
+  if (warnings_.size() < max_warnings) warnings_.push_back(message);
 }
 
 void CornerIndices::add(std::size_t triangle, std::span<const std::uint32_t> of_face,

@@ -14,9 +14,9 @@ namespace crt::core {
 
 namespace {
 
-constexpr std::size_t most_libraries = 64;
-constexpr std::size_t most_materials = 65536;
-constexpr std::size_t most_pictures = 1000;
+constexpr std::size_t max_libraries = 64;
+constexpr std::size_t max_materials = 65536;
+constexpr std::size_t max_pictures = 1000;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t";
@@ -82,9 +82,9 @@ MtlTexture texture_of_line(TextCursor& cursor) {
         break;
       }
     }
-    constexpr double most_repeats = 1e6;
+    constexpr double max_repeats = 1e6;
     const auto repeat = [&](std::size_t i) {
-      const bool is_usable = i < numbers.size() && numbers[i] > 0 && numbers[i] <= most_repeats;
+      const bool is_usable = i < numbers.size() && numbers[i] > 0 && numbers[i] <= max_repeats;
       return is_usable ? numbers[i] : 1;
     };
     if (option == "-s") {
@@ -126,16 +126,16 @@ void MtlLibraries::add_libraries(std::string_view names, std::size_t line) {
   const std::string name(trimmed(names));
   if (name.empty() || std::find(libraries_.begin(), libraries_.end(), name) != libraries_.end())
     return;
-  if (libraries_.size() == most_libraries)
-    refuse_line(line, text::format("it names more than {} material libraries", most_libraries));
+  if (libraries_.size() == max_libraries)
+    refuse_line(line, text::format("it names more than {} material libraries", max_libraries));
   libraries_.push_back(name);
 }
 
 std::uint32_t MtlLibraries::number_of(std::string_view name, std::size_t line) {
   const auto found = numbers_.find(name);
   if (found != numbers_.end()) return found->second;
-  if (numbers_.size() == most_materials)
-    refuse_line(line, text::format("it names more than {} materials", most_materials));
+  if (numbers_.size() == max_materials)
+    refuse_line(line, text::format("it names more than {} materials", max_materials));
   const auto number = static_cast<std::uint32_t>(numbers_.size());
   return numbers_.emplace(name, number).first->second;
 }
@@ -167,7 +167,7 @@ bool MtlLibraries::read_libraries(std::string_view names) {
   bool is_any_read = false;
   bool is_any_missing = names.find_first_of(" \t") == std::string_view::npos;
   TextCursor words(names);
-  for (std::size_t count = 0; !is_any_missing && count < most_libraries; ++count) {
+  for (std::size_t count = 0; !is_any_missing && count < max_libraries; ++count) {
     const std::string_view word = words.word();
     if (word.empty()) break;
     const bool is_read = read_one(std::string(word));
@@ -206,8 +206,8 @@ std::shared_ptr<const Image> MtlLibraries::picture(const std::string& name) {
   const std::string path = std::filesystem::path(name).lexically_normal().string();
   const auto found = pictures_.find(path);
   if (found != pictures_.end()) return found->second;
-  if (pictures_.size() == most_pictures)
-    throw RefusedMesh(text::format("its materials have more than {} pictures", most_pictures));
+  if (pictures_.size() == max_pictures)
+    throw RefusedMesh(text::format("its materials have more than {} pictures", max_pictures));
   std::shared_ptr<const Image>& picture = pictures_[path];
   try {
     picture = mesh_.picture(name);

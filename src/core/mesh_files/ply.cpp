@@ -30,7 +30,7 @@ class TextRows {
     for (std::uint64_t i = 0; i < count; ++i) next(type);
   }
   /// Returns how many numbers may follow at most. Each has a digit and a blank behind it.
-  std::uint64_t most_left(PlyType) const { return (cursor_.rest().size() + 1) / 2; }
+  std::uint64_t max_left(PlyType) const { return (cursor_.rest().size() + 1) / 2; }
   bool at_end() { return cursor_.at_end(); }
   [[noreturn]] void refuse(const std::string& reason) const { refuse_line(cursor_.line(), reason); }
 
@@ -72,10 +72,10 @@ class BinaryRows {
     return get<double>();
   }
   void skip(PlyType type, std::uint64_t count) {
-    if (count > most_left(type)) refuse_byte(content_.size(), "the file ends within its rows");
+    if (count > max_left(type)) refuse_byte(content_.size(), "the file ends within its rows");
     place_ += size_of(type) * count;
   }
-  std::uint64_t most_left(PlyType type) const { return (content_.size() - place_) / size_of(type); }
+  std::uint64_t max_left(PlyType type) const { return (content_.size() - place_) / size_of(type); }
   /// Says whether nothing follows. Some programs end the file like a text.
   bool at_end() const {
     return content_.find_first_not_of(" \r\n", place_) == std::string_view::npos;
@@ -142,7 +142,7 @@ class PlyReader {
     // A row has at least a number for each property. One of 8 bytes stands for the others.
     std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
     for (const PlyProperty& property : element.properties)
-      most = std::min(most, rows_.most_left(property.count_type.value_or(property.type)));
+      most = std::min(most, rows_.max_left(property.count_type.value_or(property.type)));
     if (element.count > most) {
       rows_.refuse(
           text::format("the header says that there are {} rows of {}, and the file has "
@@ -170,7 +170,7 @@ class PlyReader {
     const double count = rows_.next(*property.count_type);
     if (!(count >= 0) || count != std::floor(count))
       rows_.refuse(text::format("a list of {} numbers: it should be a whole number from 0", count));
-    const std::uint64_t most = rows_.most_left(property.type);
+    const std::uint64_t most = rows_.max_left(property.type);
     if (count > static_cast<double>(most)) {
       rows_.refuse(
           text::format("a list of {} numbers, and the file has room for {} at most", count, most));

@@ -55,7 +55,7 @@ std::string main_part(ZipArchive& archive) {
 class ModelAssembly {
  public:
   ModelAssembly(std::string_view content, MeshBuilder& mesh)
-      : archive_(content), mesh_(mesh), most_placed_(content.size() + always_allowed) {}
+      : archive_(content), mesh_(mesh), max_placed_(content.size() + always_allowed) {}
 
   void build() {
     const std::string name = main_part(archive_);
@@ -80,7 +80,7 @@ class ModelAssembly {
 
   void count(std::uint64_t placed) {
     placed_ += placed;
-    if (placed_ > most_placed_) {
+    if (placed_ > max_placed_) {
       throw RefusedMesh(
           "its components repeat objects so often that the mesh is out of proportion to the file");
     }
@@ -130,7 +130,7 @@ class ModelAssembly {
   MeshBuilder& mesh_;
   std::map<std::string, ModelPart> parts_;
   std::uint64_t placed_ = 0;
-  std::uint64_t most_placed_;
+  std::uint64_t max_placed_;
 };
 
 }  // namespace

@@ -175,12 +175,12 @@ std::string_view ZipArchive::packed_bytes(const ZipEntry& entry) const {
 
 void ZipArchive::count_unpacked(std::size_t bytes) {
   // Models are packed to a tenth or so. A small one may be packed better.
-  constexpr std::uint64_t most_for_each_byte = 100;
+  constexpr std::uint64_t max_for_each_byte = 100;
   constexpr std::uint64_t always_allowed = 1 << 24;
   unpacked_ += bytes;
-  if (unpacked_ > always_allowed + most_for_each_byte * bytes_.size()) {
+  if (unpacked_ > always_allowed + max_for_each_byte * bytes_.size()) {
     throw RefusedMesh(text::format("it unpacks to more than {} times its size, as no model does",
-                                   most_for_each_byte));
+                                   max_for_each_byte));
   }
 }
 

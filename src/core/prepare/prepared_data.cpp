@@ -9,7 +9,6 @@
 
 #include "core/compile/memory.hpp"
 #include "core/compile/primitive_limit.hpp"
-#include "core/geometry/sphere/sphere.hpp"
 #include "core/intersect/accelerator.hpp"
 #include "core/math/float_environment.hpp"
 #include "core/shading/texture.hpp"
@@ -211,16 +210,16 @@ void PreparedData::crossings(const WorldRay& ray, std::vector<RayHit>& out,
   accelerator_->sort(ray, out, work);
 }
 
-void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
-                               RayWorkspace& work) const {
+void PreparedData::containing_solids(const WorldRay& ray, std::vector<RayHit>& out,
+                                     RayWorkspace& work) const {
   out.clear();
-  accelerator_->surrounding(ray, out, work);
+  accelerator_->containing_solids(ray, out, work);
   std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
     return std::make_tuple(-a.t, a.object) < std::make_tuple(-b.t, b.object);
   });
 }
 
-Surrounding PreparedData::innermost(const Vec3& point, RayWorkspace& work) const {
+ContainingSolid PreparedData::innermost(const Vec3& point, RayWorkspace& work) const {
   return accelerator_->innermost(point, work);
 }
 
@@ -244,8 +243,9 @@ bool PreparedData::is_on_surface(const Vec3& point, RayWorkspace& work) const {
   return false;
 }
 
-Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
-  return accelerator_->stay(ray, object, work);
+SolidExit PreparedData::find_exit(const WorldRay& ray, std::uint32_t object,
+                                  RayWorkspace& work) const {
+  return accelerator_->find_exit(ray, object, work);
 }
 
 void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv,

@@ -41,9 +41,9 @@ struct HitPoint {
   double v = 0;
   std::uint32_t material = 0;   ///< index into PreparedData::materials()
   std::uint32_t entity_id = 0;  ///< the user's
-  std::uint32_t object = nothing;
-  std::uint32_t leaf = nothing;
-  std::uint32_t face = no_face;
+  std::uint32_t object = invalid_index;
+  std::uint32_t leaf = invalid_index;
+  std::uint32_t face = invalid_index;
   bool entering = false;
   bool solid = false;  ///< a boundary of a volume, not a mere surface
 };
@@ -114,10 +114,10 @@ class PreparedData {
   /// surface). For each it gives the crossing at which the ray leaves it, the farthest first. So
   /// nested solids come from outermost to innermost. A solid that the ray never leaves has t =
   /// infinity.
-  void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+  void containing_solids(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
 
   /// Finds the innermost solid around a point, as the media of pictures are ordered along a ray.
-  Surrounding innermost(const Vec3& point, RayWorkspace& work) const;
+  ContainingSolid innermost(const Vec3& point, RayWorkspace& work) const;
 
   /// Returns whether there is a surface at a point, or so near that rounding may decide. It looks
   /// along three axes across each other, as a line along a surface does not meet it.
@@ -128,7 +128,7 @@ class PreparedData {
 
   /// Returns whether the ray starts inside a solid object (just after its start, as above), and
   /// where it leaves it.
-  Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
+  SolidExit find_exit(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
   /// Computes what shading needs of a hit that `ray` found, with u and v only if asked for. It
   /// writes directly into `point`, as copying what was just written waits until that has reached
@@ -211,7 +211,7 @@ class PreparedData {
     if (leaf.complemented != face.flipped) side = opposite(side);
     return {.leaf = hit.leaf,
             .face = hit.face,
-            .surface = compiled_->is_of_instance(hit) ? nothing : face.surface,
+            .surface = compiled_->is_of_instance(hit) ? invalid_index : face.surface,
             .side = side};
   }
 

@@ -40,8 +40,9 @@ void PreparedData::warn_of_camera() {
       return;
     }
     std::vector<RayHit> exits;
-    surrounding({.origin = position, .direction = normalize(scene_.camera.pointing - position)},
-                exits, work);
+    containing_solids(
+        {.origin = position, .direction = normalize(scene_.camera.pointing - position)}, exits,
+        work);
     const bool is_enclosed = std::any_of(exits.begin(), exits.end(), [this](const RayHit& exit) {
       return materials_[hit_material(exit)].opaque;
     });

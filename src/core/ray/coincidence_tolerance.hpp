@@ -8,7 +8,7 @@ namespace crt::core {
 
 /// The place of a crossing reaches at most so far along the ray, relative to its primitive
 /// (csg/one_place.hpp), but for an error that the shape states.
-inline constexpr double most_reach = 0x1p-30;
+inline constexpr double max_reach = 0x1p-30;
 
 /// Places that are so many roundings of their size and coordinates from each other, by two of them,
 /// are one.
@@ -19,7 +19,7 @@ inline constexpr double roundings_of_place = 4;
 template <class Real>
 [[gnu::always_inline]] inline Real coincidence_tolerance(const PlainRay<Real>& ray, const Real& t,
                                                          const Real& error,
-                                                         double relative_width = 2 * most_reach) {
+                                                         double relative_width = 2 * max_reach) {
   constexpr double error_factor = 4;
   const Real farthest =
       fma(abs(t), largest_component(ray.direction), largest_component(ray.origin));

@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/base/invalid_index.hpp"
 #include "core/math/double_double.hpp"
 #include "core/ray/plain_ray.hpp"
 #include "crt/vec.hpp"
 
 namespace crt::core {
-
-inline constexpr std::uint32_t no_face = 0xffffffffu;
 
 /// Says to which side of a face a ray leaves: where the outward normal points, or into the solid.
 enum class Side : std::uint8_t { outside, inside };
@@ -23,7 +22,7 @@ inline Side opposite(Side side) {
 /// face itself, or merely on the surface that the face is a piece of. In the latter case it is on
 /// another primitive's face that lies on that surface too.
 struct FaceStart {
-  std::uint32_t face = no_face;
+  std::uint32_t face = invalid_index;
   Side side = Side::outside;  ///< of the face's surface
   bool on_face = true;
   /// Rounding has put the start so far off the surface, measured across it in units of t.

@@ -44,9 +44,9 @@ struct PacketStartsOf {
   RayMask left_some = 0;  ///< the rays that have left an object
 
   PacketStartsOf() {
-    surfaces.fill(nothing);
-    leaves.fill(nothing);
-    left_objects.fill(nothing);
+    surfaces.fill(invalid_index);
+    leaves.fill(invalid_index);
+    left_objects.fill(invalid_index);
   }
 };
 using PacketStarts = PacketStartsOf<packet_size>;

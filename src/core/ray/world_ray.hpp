@@ -6,19 +6,18 @@
 #include <limits>
 #include <span>
 
+#include "core/base/invalid_index.hpp"
 #include "core/ray/object_ray.hpp"
 
 namespace crt::core {
-
-inline constexpr std::uint32_t nothing = 0xffffffffu;
 
 /// A StartPoint says where a ray starts, by identity. (leaf, face) is the piece of surface.
 /// `surface` is the whole surface that it lies on, which all faces that coincide share. In free
 /// space all three are `nothing`.
 struct StartPoint {
-  std::uint32_t leaf = nothing;
-  std::uint32_t face = no_face;
-  std::uint32_t surface = nothing;
+  std::uint32_t leaf = invalid_index;
+  std::uint32_t face = invalid_index;
+  std::uint32_t surface = invalid_index;
   Side side = Side::outside;  ///< the side of that surface, by its canonical orientation
   /// This is how far rounding may have put the start from *other* surfaces that are there too. See
   /// is_at_start().
@@ -42,15 +41,15 @@ struct StartPoint {
 /// An EndPoint says on what a ray ends, by identity, as a StartPoint does. All are `nothing` for a
 /// ray that ends in free space, or on what nobody knows.
 struct EndPoint {
-  std::uint32_t leaf = nothing;
-  std::uint32_t face = no_face;
-  std::uint32_t surface = nothing;
+  std::uint32_t leaf = invalid_index;
+  std::uint32_t face = invalid_index;
+  std::uint32_t surface = invalid_index;
 
-  bool is_known() const { return leaf != nothing; }
+  bool is_known() const { return leaf != invalid_index; }
   /// Returns whether a hit is on the surface of the end.
   template <class Hit>
   bool is_surface_of(const Hit& hit) const {
-    if (surface != nothing) return hit.surface == surface;
+    if (surface != invalid_index) return hit.surface == surface;
     return is_known() && hit.leaf == leaf && hit.face == face;
   }
 };

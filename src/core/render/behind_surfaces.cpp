@@ -20,11 +20,11 @@ struct Passage {
   Rgb color = surface.color();
 
   /// Asks whether the ray is in a solid just behind the hit, and where it leaves it.
-  Stay stay(std::uint32_t object) const {
+  SolidExit find_exit(std::uint32_t object) const {
     const WorldRay behind = {.origin = surface.position(),
                              .direction = rays.batch.direction(ray),
                              .start = surface.start_behind()};
-    return context.data.stay(behind, object, context.work.rays);
+    return context.data.find_exit(behind, object, context.work.rays);
   }
 };
 
@@ -36,7 +36,7 @@ void cross(Passage& passage, const RayHit& crossing) {
     const Medium entered{crossing.object, passage.context.data.hit_material(crossing)};
     passage.media =
         entered_in_order(passage.lists, passage.media, entered,
-                         [&](std::uint32_t object) { return passage.stay(object).exit; });
+                         [&](std::uint32_t object) { return passage.find_exit(object).exit; });
   }
 }
 
@@ -53,7 +53,7 @@ const std::vector<RayHit>& passed_crossings(const Passage& passage, const WorldR
     passage.context.count_rays(1);
     const bool is_passed =
         data.is_solid(crossing)
-            ? passage.stay(crossing.object).inside == crossing.entering
+            ? passage.find_exit(crossing.object).inside == crossing.entering
             : is_at_place || crossing.t - passage.hit.t <= passage.surface.start().t_error;
     if (is_passed) passed.push_back(crossing);
   };
@@ -80,12 +80,12 @@ void pass_coincident(Passage& passage) {
     if (!crossing.entering) {
       cross(passage, crossing);
     } else if (!passage.lists.holds(media_before, crossing.object) &&
-               work.entered.size() < most_media_at_once) {
+               work.entered.size() < max_media_at_once) {
       work.entered.push_back(crossing);
     }
   }
   sort_outermost_first(work.entered,
-                       [&](std::uint32_t object) { return passage.stay(object).exit; });
+                       [&](std::uint32_t object) { return passage.find_exit(object).exit; });
   for (const RayHit& crossing : work.entered) cross(passage, crossing);
 }
 

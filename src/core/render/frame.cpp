@@ -25,7 +25,7 @@ void sort_by_entry(const PreparedData& data, const WorldRay& ray, std::vector<Ra
   solids.reserve(exits.size());
   for (const RayHit& exit : exits) {
     // Backwards the ray may start outside already, if it starts on the solid's surface.
-    const Stay stay = data.stay(back, exit.object, work.rays);
+    const SolidExit stay = data.find_exit(back, exit.object, work.rays);
     solids.push_back({exit, stay.inside ? stay.exit : RayHit{.t = 0}});
   }
   const auto comes_first = [](const Around& a, const Around& b) {
@@ -91,17 +91,17 @@ void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::
   ++work.stats.media_lookups;
   out.clear();
   std::vector<RayHit>& exits = work.crossings;
-  data.surrounding(ray, exits, work.rays);
+  data.containing_solids(ray, exits, work.rays);
   std::erase_if(
       exits, [&](const RayHit& exit) { return data.materials()[data.hit_material(exit)].opaque; });
-  if (exits.size() > most_media_at_once) exits.resize(most_media_at_once);
+  if (exits.size() > max_media_at_once) exits.resize(max_media_at_once);
   if (exits.size() > 1) sort_by_entry(data, ray, exits, work);
   // Each solid gets the place that it would have if the ray had come from outside of all.
   for (const RayHit& exit : exits) {
     auto place = out.end();
     const auto is_inside_of = [&](const Medium& around) {
       if (exit.object > around.object) return true;
-      const RayHit other = data.stay(ray, around.object, work.rays).exit;
+      const RayHit other = data.find_exit(ray, around.object, work.rays).exit;
       return exit.t < other.t || same_end(exit, other);
     };
     while (place != out.begin() && !is_inside_of(*std::prev(place))) --place;

@@ -27,7 +27,7 @@ void MediaAlongRay::begin(std::span<const RayHit> crossings, const Line& line) {
   line_ = &line;
   node_count_ = 0;
   passings_.clear();
-  root_ = innermost_ = nothing;
+  root_ = innermost_ = invalid_index;
 }
 
 void MediaAlongRay::sort_passings() {
@@ -61,16 +61,17 @@ std::uint32_t MediaAlongRay::node_of(std::uint32_t object) {
   const auto is_its = [&](std::uint32_t node) {
     return nodes_[node].is_there && nodes_[node].medium.object == object;
   };
-  if (innermost_ == nothing || is_its(innermost_)) return innermost_;
+  if (innermost_ == invalid_index || is_its(innermost_)) return innermost_;
   if (node_count_ <= few) {
     std::uint32_t node = 0;
     while (node < node_count_ && !is_its(node)) ++node;
-    return node < node_count_ ? node : nothing;
+    return node < node_count_ ? node : invalid_index;
   }
   sort_passings();
   const Passing* const passing = passing_of(object);
-  const bool is_known = passing != nullptr && passing->node != nothing && is_its(passing->node);
-  return is_known ? passing->node : nothing;
+  const bool is_known =
+      passing != nullptr && passing->node != invalid_index && is_its(passing->node);
+  return is_known ? passing->node : invalid_index;
 }
 
 RayHit MediaAlongRay::exit_of(std::uint32_t object, std::size_t index) {
@@ -98,7 +99,7 @@ void MediaAlongRay::enter(const Medium& medium, std::size_t index) {
 
 void MediaAlongRay::leave(std::uint32_t object) {
   const std::uint32_t node = node_of(object);
-  if (node == nothing) return;
+  if (node == invalid_index) return;
   remove(node);
   nodes_[node].is_there = false;
 }
@@ -119,14 +120,14 @@ bool MediaAlongRay::is_inside_of(Node& inner, Node& outer) {
 }
 
 std::uint32_t MediaAlongRay::first_around(std::uint32_t subtree, Node& entering) {
-  if (subtree == nothing) return nothing;
+  if (subtree == invalid_index) return invalid_index;
   Node& node = nodes_[subtree];
   const bool may_be =
       entering.medium.object > node.least_object || !entering.knows_exit ||
       std::nextafter(entering.exit.t - 2 * entering.exit.error, -infinity) <= node.farthest;
-  if (!may_be) return nothing;
+  if (!may_be) return invalid_index;
   const std::uint32_t inner = first_around(node.left, entering);
-  if (inner != nothing) return inner;
+  if (inner != invalid_index) return inner;
   const bool knew_exit = node.knows_exit;
   const bool is_around = is_inside_of(entering, node);
   if (node.knows_exit != knew_exit) update_up(subtree);
@@ -141,7 +142,7 @@ double MediaAlongRay::farthest_of(const Node& node) {
 
 std::uint32_t& MediaAlongRay::link_to(std::uint32_t node) {
   const std::uint32_t above = nodes_[node].above;
-  if (above == nothing) return root_;
+  if (above == invalid_index) return root_;
   return nodes_[above].left == node ? nodes_[above].left : nodes_[above].right;
 }
 
@@ -150,14 +151,14 @@ void MediaAlongRay::update(std::uint32_t index) {
   node.least_object = node.medium.object;
   node.farthest = farthest_of(node);
   for (const std::uint32_t child : {node.left, node.right}) {
-    if (child == nothing) continue;
+    if (child == invalid_index) continue;
     node.least_object = std::min(node.least_object, nodes_[child].least_object);
     node.farthest = std::max(node.farthest, nodes_[child].farthest);
   }
 }
 
 void MediaAlongRay::update_up(std::uint32_t node) {
-  for (; node != nothing; node = nodes_[node].above) update(node);
+  for (; node != invalid_index; node = nodes_[node].above) update(node);
 }
 
 /// Moves a node to where the one above it is, which goes below it.
@@ -169,7 +170,7 @@ void MediaAlongRay::lift(std::uint32_t node) {
   const bool was_left = nodes_[above].left == node;
   std::uint32_t& down = was_left ? nodes_[node].right : nodes_[node].left;
   (was_left ? nodes_[above].left : nodes_[above].right) = down;
-  if (down != nothing) nodes_[down].above = above;
+  if (down != invalid_index) nodes_[down].above = above;
   down = above;
   update(above);
   update(node);
@@ -182,7 +183,7 @@ std::uint32_t MediaAlongRay::new_node(const Medium& medium, std::size_t index) {
   node.index = index;
   node.knows_exit = false;
   node.is_there = true;
-  node.left = node.right = node.above = nothing;
+  node.left = node.right = node.above = invalid_index;
   node.least_object = medium.object;
   node.farthest = infinity;
   return node_count_++;
@@ -194,46 +195,47 @@ void MediaAlongRay::insert_before(std::uint32_t place, std::uint32_t node) {
     if (passing != nullptr) passing->node = node;
   }
   if (place == innermost_) innermost_ = node;
-  if (root_ == nothing) {
+  if (root_ == invalid_index) {
     root_ = node;
     return;
   }
-  std::uint32_t above = place == nothing ? root_ : place;
-  if (place != nothing && nodes_[place].left == nothing) {
+  std::uint32_t above = place == invalid_index ? root_ : place;
+  if (place != invalid_index && nodes_[place].left == invalid_index) {
     nodes_[place].left = node;
   } else {
-    if (place != nothing) above = nodes_[place].left;
-    while (nodes_[above].right != nothing) above = nodes_[above].right;
+    if (place != invalid_index) above = nodes_[place].left;
+    while (nodes_[above].right != invalid_index) above = nodes_[above].right;
     nodes_[above].right = node;
   }
   nodes_[node].above = above;
   update_up(node);
-  while (nodes_[node].above != nothing && priority(nodes_[node].above) < priority(node)) lift(node);
+  while (nodes_[node].above != invalid_index && priority(nodes_[node].above) < priority(node))
+    lift(node);
 }
 
 void MediaAlongRay::remove(std::uint32_t node) {
-  if (node == root_ && nodes_[node].left == nothing && nodes_[node].right == nothing) {
-    root_ = innermost_ = nothing;  // the usual case
+  if (node == root_ && nodes_[node].left == invalid_index && nodes_[node].right == invalid_index) {
+    root_ = innermost_ = invalid_index;  // the usual case
     return;
   }
   if (node == innermost_) {
-    if (nodes_[node].right != nothing) {
-      for (innermost_ = nodes_[node].right; nodes_[innermost_].left != nothing;) {
+    if (nodes_[node].right != invalid_index) {
+      for (innermost_ = nodes_[node].right; nodes_[innermost_].left != invalid_index;) {
         innermost_ = nodes_[innermost_].left;
       }
     } else {
       innermost_ = nodes_[node].above;
     }
   }
-  while (nodes_[node].left != nothing || nodes_[node].right != nothing) {
+  while (nodes_[node].left != invalid_index || nodes_[node].right != invalid_index) {
     const std::uint32_t left = nodes_[node].left;
     const std::uint32_t right = nodes_[node].right;
     const bool takes_left =
-        right == nothing || (left != nothing && priority(left) > priority(right));
+        right == invalid_index || (left != invalid_index && priority(left) > priority(right));
     lift(takes_left ? left : right);
   }
   const std::uint32_t above = nodes_[node].above;
-  link_to(node) = nothing;
+  link_to(node) = invalid_index;
   update_up(above);
 }
 

@@ -28,9 +28,9 @@ class MediaAlongRay {
   /// begin().
   void begin(std::span<const RayHit> crossings, const Line& line);
   /// Puts a medium around all that are there.
-  void surround(const Medium& medium) { insert_before(nothing, new_node(medium, 0)); }
+  void surround(const Medium& medium) { insert_before(invalid_index, new_node(medium, 0)); }
 
-  bool empty() const { return root_ == nothing; }
+  bool empty() const { return root_ == invalid_index; }
   const Medium& innermost() const { return nodes_[innermost_].medium; }
 
   /// Enters a medium as entered_in_order() does, with all crossings before number `index` passed.
@@ -46,9 +46,9 @@ class MediaAlongRay {
     std::size_t index = 0;  ///< the number of crossings passed when it was entered
     bool knows_exit = false;
     bool is_there = true;
-    std::uint32_t left = nothing;  ///< the inner ones
-    std::uint32_t right = nothing;
-    std::uint32_t above = nothing;
+    std::uint32_t left = invalid_index;  ///< the inner ones
+    std::uint32_t right = invalid_index;
+    std::uint32_t above = invalid_index;
     // These are of all in the subtree:
     std::uint32_t least_object = 0;
     double farthest = 0;  ///< a bound on t of the exits
@@ -57,7 +57,7 @@ class MediaAlongRay {
   struct Passing {
     std::uint32_t object = 0;
     std::uint32_t index = 0;
-    std::uint32_t node = nothing;  ///< of the object, in its first passing
+    std::uint32_t node = invalid_index;  ///< of the object, in its first passing
   };
 
   static double farthest_of(const Node& node);
@@ -87,8 +87,8 @@ class MediaAlongRay {
   std::vector<Passing> passings_;  ///< by object, then in order; empty until they are sorted
   std::vector<Node> nodes_;        ///< made once, of which node_count_ are in use
   std::uint32_t node_count_ = 0;
-  std::uint32_t root_ = nothing;
-  std::uint32_t innermost_ = nothing;
+  std::uint32_t root_ = invalid_index;
+  std::uint32_t innermost_ = invalid_index;
 };
 
 }  // namespace crt::core

@@ -16,7 +16,7 @@ namespace crt::core {
 
 /// If more solids than this are around one point, or are entered at one place, the rest is left
 /// out. Their cost grows with the square of their number.
-inline constexpr std::size_t most_media_at_once = 256;
+inline constexpr std::size_t max_media_at_once = 256;
 
 /// Returns whether crossings are at one place, which may be at infinity.
 inline bool same_end(const RayHit& a, const RayHit& b) {

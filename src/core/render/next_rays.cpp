@@ -10,7 +10,7 @@ namespace {
 
 /// A sample follows no more rays than this: where every hit sends two full-weight rays on, a deep
 /// recursion would not end in a lifetime. With weights that add up to 1 it is never reached.
-constexpr int most_rays_per_sample = 65536;
+constexpr int max_rays_per_sample = 65536;
 
 /// A Branch is the rays of a group that go on in one way.
 struct Branch {
@@ -79,7 +79,7 @@ bool is_worth_it(TraceContext& context, const PathState& before, const Rgb& weig
 /// wait are dropped.
 [[gnu::always_inline]] inline void take(RenderStats& stats, const PathRay& ray, SampleWork& work,
                                         Sample& sample, PathRays& next) {
-  if (work.rays == most_rays_per_sample) {
+  if (work.rays == max_rays_per_sample) {
     ++stats.samples_over_ray_bound;
     for (const PathRay& waiting : work.pending.all()) {
       sample.dropped += largest_component(waiting.weight);

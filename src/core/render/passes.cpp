@@ -60,24 +60,24 @@ bool asks_for_passes(const Settings& settings, int passes) {
   return settings.target_error > 0 || settings.time_budget > 0 || passes > 0;
 }
 
-Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool with_first_hits,
+Passes::Passes(const Frame& frame, const Region& region, int max_passes, bool with_first_hits,
                PassClock& clock, Canvas& canvas)
     : frame_(frame),
       region_(region),
       reach_(frame.features().lens ? reach_of_statistics_with_lens : reach_of_statistics),
       worked_on_(widened(region, reach_, {0, 0, frame.settings().width, frame.settings().height})),
       grid_(worked_on_),
-      most_samples_(frame.settings().max_samples),
-      by_clock_(most_passes == 0 && clock.has_budget()),
+      max_samples_(frame.settings().max_samples),
+      by_clock_(max_passes == 0 && clock.has_budget()),
       clock_(clock),
       canvas_(canvas),
       scale_(frame.settings().gamma),
       target_(frame.settings().target_error > 0 ? frame.settings().target_error : finest_error),
       store_(pixel_count(worked_on_)),
       subpixel_objects_(subpixel_objects(frame, worked_on_)) {
-  if (most_passes > 0 && most_passes < passes_until(most_samples_)) {
-    const SamplesDone done = samples_after(most_passes);
-    most_samples_ = done.samples;
+  if (max_passes > 0 && max_passes < passes_until(max_samples_)) {
+    const SamplesDone done = samples_after(max_passes);
+    max_samples_ = done.samples;
     more_eighths_ = done.eighths;
   }
   const std::size_t pixels = pixel_count(region);
@@ -146,15 +146,15 @@ bool Passes::is_within_step() const {
 }
 
 Passes::Step Passes::next_step() const {
-  const int last_rank = count_ == most_samples_ ? more_eighths_ : passes_per_step;
+  const int last_rank = count_ == max_samples_ ? more_eighths_ : passes_per_step;
   const bool is_split = count_ > 0 && count_ < samples_before_doubling;
   if (is_split && goes_by_pass()) return {count_ + 1, {eighths_, eighths_ + 1}};
   if (eighths_ > 0 || last_rank < passes_per_step) return {count_ + 1, {eighths_, last_rank}};
-  if (goes_by_pass()) return {std::min(count_ + samples_of_next_step(count_), most_samples_), {}};
+  if (goes_by_pass()) return {std::min(count_ + samples_of_next_step(count_), max_samples_), {}};
   const std::int64_t least = frame_.settings().min_samples;
   const auto doubled =
       2 * static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(count_)));
-  return {std::min(count_ < least ? least : doubled, most_samples_), {}};
+  return {std::min(count_ < least ? least : doubled, max_samples_), {}};
 }
 
 bool Passes::is_doubled() const {

@@ -42,8 +42,8 @@ bool asks_for_passes(const Settings& settings, int passes);
 
 class Passes {
  public:
-  /// `most_passes` is 0 for as many as it takes. All but the region must outlive the passes.
-  Passes(const Frame& frame, const Region& region, int most_passes, bool with_first_hits,
+  /// `max_passes` is 0 for as many as it takes. All but the region must outlive the passes.
+  Passes(const Frame& frame, const Region& region, int max_passes, bool with_first_hits,
          PassClock& clock, Canvas& canvas);
 
   /// Renders. It is to be called once, and finish() after it.
@@ -123,7 +123,7 @@ class Passes {
   };
   bool goes_by_pass() const { return by_clock_ || is_storable(); }
   bool is_end(std::int64_t count, int eighths) const {
-    return count == most_samples_ && eighths == more_eighths_;
+    return count == max_samples_ && eighths == more_eighths_;
   }
   bool is_complete() const { return is_end(count_, eighths_); }
   Step next_step() const;
@@ -178,7 +178,7 @@ class Passes {
   int reach_;         ///< of statistics, in pixels
   Region worked_on_;  ///< the region and its margin
   Tiles grid_;
-  std::int64_t most_samples_;
+  std::int64_t max_samples_;
   int more_eighths_ = 0;  ///< after the most samples
   bool by_clock_;
   PassClock& clock_;

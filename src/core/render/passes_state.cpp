@@ -80,7 +80,7 @@ void Passes::restore(StateReader& in) {
   }
   for (Tile& tile : tiles_) restore_tile(tile, in);
   std::erase_if(active_, [&](std::size_t index) { return tiles_[index].places.empty(); });
-  const int most = passes_until(most_samples_) + more_eighths_;
+  const int most = passes_until(max_samples_) + more_eighths_;
   if (passes() > most || (passes() == most && is_within_step())) {
     throw Error(
         ErrorCode::invalid_argument,

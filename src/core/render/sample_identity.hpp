@@ -20,7 +20,8 @@ inline void identify_hits(const PreparedData& data, const PathRays& rays, const 
   constexpr std::uint64_t is_surface = std::uint64_t{1} << 32;
   constexpr std::uint64_t is_entered = std::uint64_t{1} << 33;
   constexpr int place_of_kind = 34;
-  for_each_ray(hits.on_background(), [&](std::size_t i) { identify(*rays.samples[i], nothing); });
+  for_each_ray(hits.on_background(),
+               [&](std::size_t i) { identify(*rays.samples[i], invalid_index); });
   for_each_ray(hits.on_surface(), [&](std::size_t i) {
     const RayHit& hit = hits.hits[i];
     const std::uint64_t met = data.is_solid(hit) ? hit.leaf : is_surface | data.entity_id(hit);

@@ -50,7 +50,7 @@ class AbsorbedShare final : private MediaAlongRay::Line {
       if ((i + 1) % steps_per_look == 0) work_.rays.csg.steps.poll();
       if (!data_.is_solid(crossing)) continue;
       if (crossing.entering) {
-        if (entered.size() < most_media_at_once) entered.push_back(crossing);
+        if (entered.size() < max_media_at_once) entered.push_back(crossing);
       } else {
         media_.leave(crossing.object);
       }
@@ -67,7 +67,7 @@ class AbsorbedShare final : private MediaAlongRay::Line {
     WorldRay beyond = ray_;
     beyond.t_min = ray_.t_max;
     beyond.t_max = std::numeric_limits<double>::infinity();
-    return data_.stay(beyond, object, work_.rays).exit;
+    return data_.find_exit(beyond, object, work_.rays).exit;
   }
 
   const PreparedData& data_;

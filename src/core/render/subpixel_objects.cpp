@@ -131,7 +131,7 @@ class Marks {
 
   /// Halves the line until its parts are short in the picture, or not in it.
   void add_between(const Point& from, const Point& to, int halvings) {
-    constexpr int most_halvings = 20;
+    constexpr int max_halvings = 20;
     constexpr int enough_to_see_some = 6;
     if (is_wide(from, to)) return;
     const bool both_seen = from.place && to.place;
@@ -144,7 +144,7 @@ class Marks {
       if (is_short || is_beside(seen)) return;
     }
     const bool none_seen = !from.place && !to.place;
-    if (halvings == most_halvings || (none_seen && halvings == enough_to_see_some)) return;
+    if (halvings == max_halvings || (none_seen && halvings == enough_to_see_some)) return;
     const Point middle =
         point_at(0.5 * (from.position + to.position), 0.5 * (from.reach + to.reach));
     add_between(from, middle, halvings + 1);
@@ -167,10 +167,10 @@ std::optional<CoreSegment> core_segment_of(const CompiledScene& scene, const Sce
   const Vec3 scale(glm::length(Vec3(world.row_x.x, world.row_y.x, world.row_z.x)),
                    glm::length(Vec3(world.row_x.y, world.row_y.y, world.row_z.y)),
                    glm::length(Vec3(world.row_x.z, world.row_y.z, world.row_z.z)));
-  const double most_scale = largest_component(scale);
+  const double max_scale = largest_component(scale);
   return CoreSegment{leaf.placement->point_to_world(segment->from),
-                     leaf.placement->point_to_world(segment->to), segment->from_reach * most_scale,
-                     segment->to_reach * most_scale};
+                     leaf.placement->point_to_world(segment->to), segment->from_reach * max_scale,
+                     segment->to_reach * max_scale};
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/math/power.hpp"
-#include "core/render/hit_faces.hpp"
+#include "core/prepare/hit_faces.hpp"
 #include "core/shading/bump.hpp"
 
 namespace crt::core {

@@ -66,14 +66,14 @@ struct SampleWork {
 /// A CutoffSum is the weight of rays that were not followed, of some pixels.
 struct CutoffSum {
   static constexpr double unit = 0x1p-24;
-  static constexpr double most_of_pixel = 256;
+  static constexpr double max_of_pixel = 256;
 
   /// The sum is in whole units, so that the order does not matter.
   std::uint64_t units = 0;
   double most = 0;
 
   void add(double pixel) {
-    const double weight = std::min(pixel, most_of_pixel);
+    const double weight = std::min(pixel, max_of_pixel);
     units += static_cast<std::uint64_t>(std::ceil(weight / unit));
     most = std::max(most, weight);
   }

@@ -224,9 +224,9 @@ class PixelSamples {
 };
 
 inline int PixelSamples::block_exponent(std::int64_t count) {
-  constexpr int most_of_single_samples = std::countr_zero(block_count);
+  constexpr int max_of_single_samples = std::countr_zero(block_count);
   const auto exponent = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count - 1)));
-  return std::max(exponent - most_of_single_samples, 0);
+  return std::max(exponent - max_of_single_samples, 0);
 }
 
 inline void PixelSamples::merge_blocks() {

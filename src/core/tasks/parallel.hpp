@@ -47,8 +47,8 @@ void sort_in_pieces(std::span<Item> items, const Workers& workers, const Less& l
 template <class Item, class Less>
 void sort_in_parallel(std::span<Item> items, const Workers& workers, const Less& less) {
   std::size_t pieces = 1;
-  const auto most_pieces = static_cast<std::size_t>(allowed_threads(workers.threads));
-  while (pieces < most_pieces && items.size() / pieces > 2 * items_for_a_thread) pieces *= 2;
+  const auto max_pieces = static_cast<std::size_t>(allowed_threads(workers.threads));
+  while (pieces < max_pieces && items.size() / pieces > 2 * items_for_a_thread) pieces *= 2;
   const auto border = [&](std::size_t piece) {
     return items.begin() + static_cast<std::ptrdiff_t>(items.size() * piece / pieces);
   };

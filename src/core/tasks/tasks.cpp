@@ -29,7 +29,7 @@ int available_threads() {
 }
 
 /// This is more than any machine has, and few enough to ask for.
-int most_threads() {
+int max_threads() {
   return 1024;
 }
 #else
@@ -38,7 +38,7 @@ int available_threads() {
 }
 
 /// TBB starts no more threads in this process, and warns on the terminal if it is asked for more.
-int most_threads() {
+int max_threads() {
   return static_cast<int>(
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
@@ -127,7 +127,7 @@ int allowed_threads(int threads) {
     throw Error(ErrorCode::invalid_argument, "threads must not be negative; 0 means all",
                 "threads");
   }
-  return threads == 0 ? available_threads() : std::min(threads, most_threads());
+  return threads == 0 ? available_threads() : std::min(threads, max_threads());
 }
 
 void run_tasks(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {

@@ -38,8 +38,8 @@ struct Workers {
   StopCheck* stop = nullptr;
 
   // NOLINTNEXTLINE(google-explicit-constructor): a number of threads is enough to say
-  Workers(int most_threads = 0, StopCheck* stop_check = nullptr)
-      : threads(most_threads), stop(stop_check) {}
+  Workers(int max_threads = 0, StopCheck* stop_check = nullptr)
+      : threads(max_threads), stop(stop_check) {}
 
   void poll() const {
     if (stop != nullptr) stop->poll();

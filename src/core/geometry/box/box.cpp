@@ -38,7 +38,7 @@ bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const double shortest =
       unit_roundoff * (largest_component(upper_ - lower_) / largest_component(ray.direction));
   ClippedSpan span(ray.start, shortest);
-  if (ray.start.face == no_face) {
+  if (ray.start.face == invalid_index) {
     const unsigned ends = possible_ends(ray);
     if (ends == 0) return false;
     for (std::uint32_t face = 0; face < faces_.size(); ++face) {

@@ -147,8 +147,8 @@ bool enclose(const EnclosedBox& box, const FilterLine<Real>& line, const MaskOf<
 
 /// Returns whether lines come from outside to a face of a box.
 template <class Real>
-MaskOf<Real> goes_into(const EnclosedBox& /*box*/, std::uint32_t face,
-                       const FilterLine<Real>& line) {
+MaskOf<Real> starts_inwards(const EnclosedBox& /*box*/, std::uint32_t face,
+                            const FilterLine<Real>& line) {
   const Real& speed = line.direction[EnclosedBox::axis_of(face)];
   return EnclosedBox::is_upper(face) ? speed < 0.0 : speed > 0.0;
 }

@@ -116,8 +116,8 @@ template <class Real>
 
 /// Returns whether lines plainly come from outside to a face of a box.
 template <class Real>
-MaskOf<Real> goes_into(const EnclosedTurnedBox& box, std::uint32_t face,
-                       const FilterLine<Real>& line) {
+MaskOf<Real> starts_inwards(const EnclosedTurnedBox& box, std::uint32_t face,
+                            const FilterLine<Real>& line) {
   constexpr double plainly = 0x1p-30;
   const Vec3& axis = box.axes[EnclosedBox::axis_of(face)];
   const auto& d = line.direction;

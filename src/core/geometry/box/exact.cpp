@@ -23,7 +23,7 @@ class ExactBoxShape final : public ExactShape {
                ExactPlane({0, 0, 1}, glm::max(box.corner_a, box.corner_b))} {}
 
   bool crossings(const ExactRay& ray, CrossingList& out) const override {
-    if (ray.near.start.face != no_face) return crossings_from_face(ray, out);
+    if (ray.near.start.face != invalid_index) return crossings_from_face(ray, out);
     End enter;
     End leave;
     for (std::uint32_t face = 0; face < faces_.size(); ++face) {
@@ -33,10 +33,10 @@ class ExactBoxShape final : public ExactShape {
         continue;
       }
       End& end = meeting.side < 0 ? enter : leave;
-      if (end.face == no_face || is_nearer(ray, meeting, face, end)) end = {meeting, face};
+      if (end.face == invalid_index || is_nearer(ray, meeting, face, end)) end = {meeting, face};
       if (surely_passed(enter, leave)) return false;
     }
-    if (enter.face == no_face || leave.face == no_face) return false;
+    if (enter.face == invalid_index || leave.face == invalid_index) return false;
     if (order(ray, faces_[enter.face], enter.meeting, faces_[leave.face], leave.meeting) >= 0)
       return false;
     out.push_back(enter.meeting.crossing(enter.face));
@@ -63,7 +63,7 @@ class ExactBoxShape final : public ExactShape {
   /// An End is where the line enters or leaves what is between the faces tested until then.
   struct End {
     ExactPlane::Meeting meeting;
-    std::uint32_t face = no_face;
+    std::uint32_t face = invalid_index;
   };
 
   bool is_nearer(const ExactRay& ray, const ExactPlane::Meeting& meeting, std::uint32_t face,
@@ -73,7 +73,7 @@ class ExactBoxShape final : public ExactShape {
   }
 
   static bool surely_passed(const End& enter, const End& leave) {
-    return enter.face != no_face && leave.face != no_face &&
+    return enter.face != invalid_index && leave.face != invalid_index &&
            enter.meeting.t.hi - leave.meeting.t.hi > enter.meeting.error + leave.meeting.error;
   }
 

@@ -41,7 +41,7 @@ bool CapsuleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     bound_at_seam(ray, parts[0].enter, whole.enter);
     bound_at_seam(ray, parts[0].leave, whole.leave);
   }
-  if (ray.start.face != no_face && ray.start.on_face) {
+  if (ray.start.face != invalid_index && ray.start.on_face) {
     begin_at_start(ray.start, unit_roundoff * (radius_ / largest_component(ray.direction)), whole);
   }
   append(whole, out);
@@ -58,7 +58,7 @@ CapsuleSpan CapsuleShape::span_of(std::uint32_t part, const ObjectRay& ray,
       spheres_[part - 1].crossings(seen, out);
     }
   };
-  if (ray.start.face == no_face) {
+  if (ray.start.face == invalid_index) {
     append_crossings(ray);
   } else {
     ObjectRay seen = ray;

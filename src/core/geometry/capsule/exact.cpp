@@ -25,14 +25,14 @@ class ExactCapsuleShape final : public ExactShape {
         radius_(capsule.radius) {}
 
   bool crossings(const ExactRay& ray, CrossingList& out) const override {
-    if (ray.near.start.face != no_face) return crossings_from_surface(ray, out);
+    if (ray.near.start.face != invalid_index) return crossings_from_surface(ray, out);
     CapsuleSpan whole = span(ray, out);
     if (!whole.found) return false;
     if (ray.near.is_first_asked(whole.enter)) {
       out.push_back(whole.enter);
       return false;
     }
-    if (whole.leave.face == no_face) {
+    if (whole.leave.face == invalid_index) {
       // A part left out where it ends, as it begins so late, but the capsule begins before it.
       ObjectRay near = ray.near;
       near.first_above = std::numeric_limits<double>::infinity();
@@ -73,7 +73,7 @@ class ExactCapsuleShape final : public ExactShape {
     if (!whole.found) return outer(ray, span_of(1, ray, out), span_of(2, ray, out));
     const auto move_behind_cap = [&](Crossing CapsuleSpan::*end) {
       const std::uint32_t cap = (whole.*end).face;
-      if (cap == side_face || cap == no_face) return;
+      if (cap == side_face || cap == invalid_index) return;
       const CapsuleSpan half = span_of(cap, ray, out);
       if (half.found) whole.*end = half.*end;
     };

@@ -16,12 +16,12 @@ namespace crt::core {
 struct CapsuleSpan {
   bool found = false;
   Crossing enter;
-  Crossing leave{.face = no_face};  ///< has no face if it was left out, as nobody asks for it
+  Crossing leave{.face = invalid_index};  ///< has no face if it was left out, as nobody asks for it
 };
 
 /// Returns where a ray starts, as a part has it. The surface of a part has the number 0 there.
 inline FaceStart start_on_part(FaceStart start, std::uint32_t part) {
-  start.face = start.face == part ? 0 : no_face;
+  start.face = start.face == part ? 0 : invalid_index;
   return start;
 }
 

@@ -13,7 +13,7 @@ namespace crt::core {
 
 namespace {
 
-constexpr std::uint32_t most_faces = Shape::most_compared_faces;
+constexpr std::uint32_t max_faces = Shape::max_compared_faces;
 
 std::string text_of(const Vec3& v) {
   return text::format("({}, {}, {})", v.x, v.y, v.z);
@@ -71,7 +71,7 @@ bool CalledShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   std::vector<CustomCrossing>& found = out.of_custom;
   ask(line.ray(), found);
   std::size_t start = found.size();
-  if (ray.start.face != no_face) start = put_start(ray, line, found);
+  if (ray.start.face != invalid_index) start = put_start(ray, line, found);
   append(line, found, start, out);
   return false;
 }
@@ -216,9 +216,8 @@ void validate(const Custom& custom) {
                                       text_of(bounds.lower), text_of(bounds.upper)));
   }
   const std::uint32_t faces = shape.face_count();
-  if (faces == 0 || faces > most_faces) {
-    refuse_answer(shape,
-                  text::format("there must be 1 to {} faces, but are {}", most_faces, faces));
+  if (faces == 0 || faces > max_faces) {
+    refuse_answer(shape, text::format("there must be 1 to {} faces, but are {}", max_faces, faces));
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 NearLine line_near(const Bounds& bounds, const ObjectRay& ray) {
   const double unit = power_of_two_below(size_of(bounds));
   // A start is near as it is, and stays where it is.
-  if (ray.start.face != no_face) return NearLine::at_origin(ray, middle_of(bounds), unit);
+  if (ray.start.face != invalid_index) return NearLine::at_origin(ray, middle_of(bounds), unit);
   return NearLine::at_closest(ray, middle_of(bounds), unit);
 }
 
@@ -30,7 +30,7 @@ CustomLine::CustomLine(const Bounds& bounds, const ObjectRay& ray)
   const LineSpan span = RaySlabs(ray_.origin, ray_.direction, rounding_).span(bounds);
   ray_.t_min = span.enter;
   ray_.t_max = span.leave;
-  if (ray.start.face != no_face) {
+  if (ray.start.face != invalid_index) {
     // The start is within the bounds, whatever rounding says.
     ray_.t_min = std::min(ray_.t_min, -rounding_);
     ray_.t_max = std::max(ray_.t_max, rounding_);

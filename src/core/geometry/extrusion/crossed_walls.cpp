@@ -48,7 +48,7 @@ class CrossedWalls {
  private:
   /// Returns whether the ray starts on the surface of a face.
   bool starts_on(std::uint32_t face) const {
-    return ray_.start.face != no_face && are_on_one_surface(profile_, face, ray_.start.face);
+    return ray_.start.face != invalid_index && are_on_one_surface(profile_, face, ray_.start.face);
   }
   void clip_at_end(std::uint32_t end);
   void find();
@@ -88,8 +88,8 @@ void CrossedWalls::append() {
     if (line_.is_inside(profile_)) append_part(ends_.enter, ends_.leave);
     return;
   }
-  constexpr std::size_t most_at_first = 32;
-  walls_.reserve(most_at_first);
+  constexpr std::size_t max_at_first = 32;
+  walls_.reserve(max_at_first);
   find();
   unite_at_corners();
   std::sort(walls_.begin(), walls_.end(), [this](const CrossedWall& a, const CrossedWall& b) {
@@ -119,7 +119,7 @@ void CrossedWalls::clip_at_end(std::uint32_t end) {
     return;
   }
   // A ray that starts on another face starts between the ends, whatever rounding says.
-  const bool is_between = ray_.start.face != no_face && ray_.start.on_face;
+  const bool is_between = ray_.start.face != invalid_index && ray_.start.on_face;
   const bool is_off = meeting.side < 0 ? crossing.t > 0 : crossing.t < 0;
   if (is_between && is_off) crossing = {.face = end};
   (meeting.side < 0 ? ends_.enter : ends_.leave) = crossing;
@@ -138,7 +138,7 @@ void CrossedWalls::meet(std::uint32_t number) {
   const Profile::Piece& piece = profile_.pieces()[number];
   const CornerSide from = line_.side_of(piece.from);
   const CornerSide to = line_.side_of(piece.to);
-  if (piece.arc == Profile::no_arc) {
+  if (piece.arc == invalid_index) {
     const ShiftMask shifts = from.left ^ to.left;
     if (shifts != 0) add_flat(number, shifts, from, to);
     return;
@@ -299,9 +299,9 @@ void append_crossings(const Profile& profile, PlaneLine& line, const ExtrusionTi
   const std::size_t begin = out.size();
   CrossedWalls(profile, line, tier, shortest, out).append();
   const FaceStart& start = line.near().start;
-  if (start.face != no_face && start.on_face) {
+  if (start.face != invalid_index && start.on_face) {
     const bool is_round =
-        start.face >= end_count && profile.wall(wall_of_face(start.face)).arc != Profile::no_arc;
+        start.face >= end_count && profile.wall(wall_of_face(start.face)).arc != invalid_index;
     const bool goes_into_circle = (start.side == Side::inside) != is_turned(start.face);
     agree_with_start(line.near(), is_round && !goes_into_circle ? 1 : 0,
                      profile.bounds().farthest(), shortest, begin, out);

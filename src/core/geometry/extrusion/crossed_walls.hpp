@@ -23,8 +23,8 @@ struct EndMeeting {
 
 /// An EndSpan is the part of a line between the ends of an extrusion.
 struct EndSpan {
-  Crossing enter{.t = -std::numeric_limits<double>::infinity(), .face = no_face};
-  Crossing leave{.t = std::numeric_limits<double>::infinity(), .face = no_face};
+  Crossing enter{.t = -std::numeric_limits<double>::infinity(), .face = invalid_index};
+  Crossing leave{.t = std::numeric_limits<double>::infinity(), .face = invalid_index};
   bool is_empty = false;
 };
 

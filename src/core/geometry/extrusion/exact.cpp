@@ -26,7 +26,7 @@ struct ExactExtrusion {
   const Profile::Arc* arc_of(std::uint32_t face) const {
     if (face < end_count) return nullptr;
     const Profile::Wall wall = profile->wall(wall_of_face(face));
-    return wall.arc != Profile::no_arc ? &profile->arcs()[wall.arc] : nullptr;
+    return wall.arc != invalid_index ? &profile->arcs()[wall.arc] : nullptr;
   }
   std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const;
 };
@@ -54,7 +54,8 @@ std::optional<RealRoot> ExactExtrusion::place(const ExactRay& ray, const Crossin
   if (arc == nullptr) return place_on(plane_of(crossing.face), ray, crossing);
   if (is_start(ray, crossing)) return RealRoot::at(0);
   const std::uint32_t start = ray.near.start.face;
-  const bool starts_there = start != no_face && are_on_one_surface(*profile, start, crossing.face);
+  const bool starts_there =
+      start != invalid_index && are_on_one_surface(*profile, start, crossing.face);
   const ExactQuadratic circle = PlaneLine(ray).equation(*arc);
   return root_at(ray, crossing, starts_there ? circle.beside_zero() : circle.polynomial());
 }

@@ -98,7 +98,7 @@ bool ExtrusionShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 Vec3 ExtrusionShape::anchor(std::uint32_t face) const {
   if (face < end_count) return ends_[face].position();
   const Profile::Wall wall = profile_->wall(wall_of_face(face));
-  if (wall.arc != Profile::no_arc) {
+  if (wall.arc != invalid_index) {
     return cylinder(profile_->arcs()[wall.arc].first).anchor(FrustumShape::side_face);
   }
   return planes_[wall.piece].position();
@@ -123,7 +123,7 @@ void ExtrusionShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&
                                  SurfacePointOf<Real>& point) const {
   if (face < end_count) return write_end_point(offset, face, with_uv, point);
   const Profile::Wall wall = profile_->wall(wall_of_face(face));
-  if (wall.arc != Profile::no_arc) {
+  if (wall.arc != invalid_index) {
     write_round_point(offset, direction, wall.arc, with_uv, point);
   } else {
     write_flat_point(offset, wall.piece, with_uv, point);
@@ -183,7 +183,7 @@ void ExtrusionShape::write_round_point(const Vec3Of<Real>& offset, const Vec3Of<
 Surface ExtrusionShape::surface(std::uint32_t face) const {
   if (face < end_count) return ends_[face].surface();
   const Profile::Wall wall = profile_->wall(wall_of_face(face));
-  if (wall.arc != Profile::no_arc) {
+  if (wall.arc != invalid_index) {
     Surface surface = cylinder(profile_->arcs()[wall.arc].first).surface(FrustumShape::side_face);
     surface.is_hollow = is_turned(face);
     return surface;

@@ -237,8 +237,8 @@ template <class Real>
 /// Returns whether lines that start on a face, and to its inner side, come into a frustum there:
 /// they start on its surface but for what rounding makes of 0, and plainly inwards on a cap.
 template <class Real>
-[[gnu::noinline]] MaskOf<Real> goes_into(const EnclosedFrustum& frustum, std::uint32_t face,
-                                         const FilterLine<Real>& line) {
+[[gnu::noinline]] MaskOf<Real> starts_inwards(const EnclosedFrustum& frustum, std::uint32_t face,
+                                              const FilterLine<Real>& line) {
   constexpr double share_of_start = 0x1p-4;
   constexpr double plainly = 0x1p-40;
   const FrustumPass<Real> pass(frustum, line);

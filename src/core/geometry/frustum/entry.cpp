@@ -55,13 +55,13 @@ void FrustumShape::write_span(const Ray& ray, const WantedEnds<Real>& wanted,
   entry.t = there.to_t(step);
   // The ray meets the side so squarely that no rounding takes one root near the other.
   constexpr double squarely = 0x1p-10;
-  const Real most_reach = wide_radius_ + 2.0 * largest;
+  const Real max_reach = wide_radius_ + 2.0 * largest;
   const Real half_chord = root / side.a;
   const auto is_square =
-      rate > squarely * ray_speed && half_chord * ray_speed > squarely * most_reach;
+      rate > squarely * ray_speed && half_chord * ray_speed > squarely * max_reach;
   // The chord is so long that t separates where the ray enters from where it leaves.
   const auto is_long = line.to_t_length(half_chord) > 4.0 * rounding_of(t);
-  entry.known = meets && is_long && is_square && side.is_straight(step, at_root, most_reach);
+  entry.known = meets && is_long && is_square && side.is_straight(step, at_root, max_reach);
 }
 
 template class ShapeOfSpans<FrustumShape>;

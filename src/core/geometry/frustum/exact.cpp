@@ -111,8 +111,9 @@ class ExactFrustumShape final : public ExactShape {
       }
       if (end.meeting.found()) (end.meeting.side < 0 ? enter : leave) = end;
     }
-    const double first_above =
-        start.face == no_face ? ray.near.first_above : std::numeric_limits<double>::infinity();
+    const double first_above = start.face == invalid_index
+                                   ? ray.near.first_above
+                                   : std::numeric_limits<double>::infinity();
     Piece piece;
     FilteredSide filtered(frustum_, ray);
     std::optional<bool> hit = cut(filtered, enter, leave, first_above, piece);
@@ -121,9 +122,9 @@ class ExactFrustumShape final : public ExactShape {
       hit = cut(exact, enter, leave, first_above, piece);
     }
     if (!*hit || !std::isfinite(piece.enter.t) || !std::isfinite(piece.leave.t)) return false;
-    if (start.face == no_face) {
+    if (start.face == invalid_index) {
       out.push_back(piece.enter);
-      if (piece.leave.face != no_face) out.push_back(piece.leave);
+      if (piece.leave.face != invalid_index) out.push_back(piece.leave);
       return false;
     }
     ClippedSpan span(start, shortest_ / largest_component(ray.near.direction));
@@ -159,7 +160,7 @@ class ExactFrustumShape final : public ExactShape {
  private:
   struct Piece {
     Crossing enter;
-    Crossing leave{.face = no_face};  ///< left out, if it is not needed
+    Crossing leave{.face = invalid_index};  ///< left out, if it is not needed
   };
 
   /// Finds what the line cuts out of the solid. The result is unknown if the side cannot decide.

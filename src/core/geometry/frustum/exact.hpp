@@ -43,7 +43,7 @@ struct ExactFrustum {
 struct CapMeeting {
   ExactPlane::Meeting meeting;
   const ExactPlane* plane = nullptr;  ///< null if the line is parallel to the caps
-  std::uint32_t face = no_face;
+  std::uint32_t face = invalid_index;
   bool within_rim = false;  ///< known to be, so it is not computed
   bool at_start = false;    ///< at t = 0 by identity
 

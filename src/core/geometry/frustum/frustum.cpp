@@ -69,7 +69,7 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   // Squares of what is farther away could overflow. The closest point is known to a few units.
   constexpr double far = 64;
   const bool passes_far = largest_component(line.point) > far * (height_ + wide_radius_);
-  if (ray.start.face == no_face && (span.empty() || passes_far)) return false;
+  if (ray.start.face == invalid_index && (span.empty() || passes_far)) return false;
   const SideRates rates = side_rates(line);
   if (!move_to_least(ray, line, rates, span)) return false;
   clip_side(ray, line, rates, span);

@@ -31,7 +31,7 @@ class HeightFieldShape final : public ShapeOfPoints<HeightFieldShape> {
   std::uint32_t face_count() const override { return facets_.face_count(); }
   Surface surface(std::uint32_t face) const override;
   std::uint32_t listed_face_count() const override {
-    return face_count() > most_compared_faces ? HeightFacets::first_of_cells : face_count();
+    return face_count() > max_compared_faces ? HeightFacets::first_of_cells : face_count();
   }
   void faces_near(const Vec3& normal, double offset, const Bounds& box,
                   std::vector<std::uint32_t>& faces) const override {

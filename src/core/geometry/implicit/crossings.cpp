@@ -67,14 +67,14 @@ FieldSearchLimits FieldSpan::limits(const FieldProgram& program, const FieldRay&
   const double reach = std::max(-from, to);
   double size = reach;
   for (const Interval& component : place) size = std::max(size, component.magnitude());
-  constexpr std::size_t most_evaluations = 1024;
+  constexpr std::size_t max_evaluations = 1024;
   constexpr std::size_t most_steps = std::size_t{1} << 20;
   constexpr std::uint32_t more_of_exact = 8;
-  const std::size_t evaluations = std::min(most_evaluations, most_steps / program.steps().size());
+  const std::size_t evaluations = std::min(max_evaluations, most_steps / program.steps().size());
   // This is more than the rounding of both ends of a root's interval as t.
   constexpr double margin = 0x1p-48;
   const double same_place = margin * (std::abs(shift_) * scale_ + reach);
-  return {.most_evaluations =
+  return {.max_evaluations =
               static_cast<std::uint32_t>(evaluations) * (field_ray.is_exact ? more_of_exact : 1),
           .shortest = 0x1p-52 * size,
           .first = to_x(ray.begin),
@@ -114,7 +114,7 @@ void find_roots(const FieldRay& field_ray, const Crossing& enter, const Crossing
     search.search_from_root(span.to, start.side);
   } else {
     // A ray that starts on the box starts where the field is inside.
-    const bool on_box = start.face != no_face && start.on_face;
+    const bool on_box = start.face != invalid_index && start.on_face;
     const auto is_start = [&](const Crossing& end) {
       return on_box && end.t == 0 && end.face + first_box_face == start.face;
     };
@@ -133,7 +133,7 @@ ObjectRay as_box_sees(const ObjectRay& ray) {
   result.first_above = infinity;
   if (ray.start.face == 0) {
     result.start = {};
-  } else if (ray.start.face != no_face) {
+  } else if (ray.start.face != invalid_index) {
     result.start.face -= first_box_face;
   }
   return result;

@@ -207,7 +207,7 @@ Triple Part::of_two(FieldOperation operation, const Triple& a, const Triple& b) 
 
 FieldLine::Values FieldLine::evaluate(double from, double to) const {
   using enum FieldOperation;
-  std::array<Triple, FieldProgram::most_registers> registers;
+  std::array<Triple, FieldProgram::max_registers> registers;
   Part part(from, to);
   Triple* last = nullptr;
   for (const FieldStep& step : program_.steps()) {

@@ -101,10 +101,10 @@ void assign_registers(std::vector<FieldStep>& steps) {
     if (operands > 0 && last_use[a] == i) free.push_back(registers[a]);
     if (operands > 1 && b != a && last_use[b] == i) free.push_back(registers[b]);
     if (free.empty()) {
-      if (count == FieldProgram::most_registers) {
+      if (count == FieldProgram::max_registers) {
         throw Error(
             ErrorCode::invalid_argument,
-            text::format("field needs more than {} values at a time", FieldProgram::most_registers),
+            text::format("field needs more than {} values at a time", FieldProgram::max_registers),
             "field");
       }
       free.push_back(count++);

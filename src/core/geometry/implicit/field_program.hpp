@@ -33,7 +33,7 @@ class FieldProgram {
   const std::vector<FieldStep>& steps() const { return steps_; }
 
   static constexpr std::size_t most_steps = 4096;
-  static constexpr std::size_t most_registers = 256;
+  static constexpr std::size_t max_registers = 256;
 
   /// Returns numbers that are equal for equal programs alone.
   std::vector<Dyadic> numbers() const;

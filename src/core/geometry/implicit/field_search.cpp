@@ -42,7 +42,7 @@ void FieldSearch::know(double x, bool is_inside) {
     last_enter_ = x;
     is_awaited_ = is_inside && limits_.is_enough_inside;
   } else if (is_inside != last_inside_) {
-    if (count_ == most_roots) {
+    if (count_ == max_roots) {
       is_undecided_ = true;
       return;
     }
@@ -69,8 +69,8 @@ void FieldSearch::search(double from, double to) {
     double to;
     int sign;  ///< of f there, or 0 if that is not known
   };
-  constexpr std::size_t most_open = 120;
-  std::array<Range, most_open> open;
+  constexpr std::size_t max_open = 120;
+  std::array<Range, max_open> open;
   std::size_t count = 0;
   open[count++] = {from, to, 0};
   const double whole = to - from;
@@ -88,7 +88,7 @@ void FieldSearch::search(double from, double to) {
       const Rest rest = narrow(low, high, values);
       if (rest.sign_after != 0) open[count++] = {rest.to, high, rest.sign_after};
       if (!rest.is_open || has_enough_) continue;
-      if (count + 2 > most_open) {
+      if (count + 2 > max_open) {
         leave_open(rest.from, rest.to, true);
         continue;
       }
@@ -96,7 +96,7 @@ void FieldSearch::search(double from, double to) {
       open[count++] = {middle, rest.to, 0};
       open[count++] = {rest.from, middle, 0};
     } else {
-      if (is_settled(values, high - low, shortest_part(whole)) || count + 3 > most_open) {
+      if (is_settled(values, high - low, shortest_part(whole)) || count + 3 > max_open) {
         leave_open(low, high, false);
         continue;
       }
@@ -113,7 +113,7 @@ void FieldSearch::search(double from, double to) {
 // There are n squared of the shortest parts in the second share of n evaluations, and n / 4 in all
 // that follow. These take less than n / 2 evaluations, and the steps that narrow roots.
 double FieldSearch::shortest_part(double whole) const {
-  const double share = limits_.most_evaluations;
+  const double share = limits_.max_evaluations;
   if (evaluations_ < share) return limits_.shortest;
   const double parts = evaluations_ < 2 * share ? share * share : share / 4;
   return std::max(limits_.shortest, whole / parts);
@@ -125,8 +125,8 @@ bool FieldSearch::is_settled(const FieldLine::Values& values, double length,
   constexpr double roundings = 4;
   const bool is_noise = values.middle.contains(0) && !values.may_be_undefined &&
                         values.all.width() <= roundings * values.middle.width();
-  constexpr std::uint32_t most_shares = 4;
-  return is_noise || !(length > shortest) || evaluations_ >= most_shares * limits_.most_evaluations;
+  constexpr std::uint32_t max_shares = 4;
+  return is_noise || !(length > shortest) || evaluations_ >= max_shares * limits_.max_evaluations;
 }
 
 FieldSearch::Rest FieldSearch::narrow(double from, double to, FieldLine::Values values) {

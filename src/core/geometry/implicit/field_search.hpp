@@ -35,7 +35,7 @@ struct FieldRoot {
 /// Says how much a search may do, and when it has found enough.
 struct FieldSearchLimits {
   /// After so many, only long parts are halved. At four times as many all are left as they are.
-  std::uint32_t most_evaluations = 0;
+  std::uint32_t max_evaluations = 0;
   double shortest = 0;  ///< no part that is as short is halved
   /// Nothing is asked before this. What is found after it is the same without it, to the bit.
   double first = -std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ class FieldSearch {
   bool has_enough() const { return has_enough_; }
   std::uint32_t evaluations() const { return evaluations_; }
 
-  static constexpr std::size_t most_roots = 256;
+  static constexpr std::size_t max_roots = 256;
   std::size_t count() const { return count_; }
   const FieldRoot& root(std::size_t i) const { return roots_[i]; }
 
@@ -125,7 +125,7 @@ class FieldSearch {
   double first_gap_ = 0;
   double last_gap_ = 0;
   std::size_t count_ = 0;
-  std::array<FieldRoot, most_roots> roots_;
+  std::array<FieldRoot, max_roots> roots_;
 };
 
 }  // namespace crt::core

@@ -42,10 +42,10 @@ Fronts find_fronts(const MeshTriangles& mesh, const SelfMeetings& meetings,
   std::vector<std::uint8_t> tries(mesh.size());
   CrossingList crossings;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
-    constexpr std::uint8_t most_tries = 8;  // as a line may meet another triangle right there
+    constexpr std::uint8_t max_tries = 8;  // as a line may meet another triangle right there
     const std::uint32_t lowest = connected.lowest(i);
     if (!meetings.is_separate(i) || fronts[lowest]) continue;
-    if (tries[lowest]++ < most_tries) fronts[lowest] = front_of(mesh, i, crossings);
+    if (tries[lowest]++ < max_tries) fronts[lowest] = front_of(mesh, i, crossings);
   }
   for (std::uint32_t i = 0; i < mesh.size(); ++i) fronts[i] = fronts[connected.lowest(i)];
   return fronts;

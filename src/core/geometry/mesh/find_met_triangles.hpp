@@ -36,7 +36,7 @@ class MetTriangles {
         ray_(line.near()),
         tier_(tier),
         list_(list),
-        most_overlap_(most_overlap()) {}
+        max_overlap_(max_overlap()) {}
 
   bool append();
   /// Appends a crossing for each triangle, in order.
@@ -62,7 +62,7 @@ class MetTriangles {
   /// Returns whether the ray starts in the plane of a triangle, or of a face.
   template <class TriangleOrFace>
   bool starts_on(const TriangleOrFace& triangle) const {
-    return ray_.start.face != no_face && mesh_.are_in_one_plane(triangle, ray_.start.face);
+    return ray_.start.face != invalid_index && mesh_.are_in_one_plane(triangle, ray_.start.face);
   }
   void find(bool first_is_enough);
   Crossing meet(const Item& triangle, bool along) const;
@@ -73,7 +73,7 @@ class MetTriangles {
   void keep_in_triangle(const Triangle& triangle, const Triangle& in_plane,
                         Crossing& crossing) const;
   double start_slack() const;
-  double most_overlap() const;
+  double max_overlap() const;
   double begin_of_line() const { return ray_.begin - start_slack(); }
   bool is_behind(const Crossing& crossing, const Leaf& leaf) const;
   /// Returns the size of all coordinates, which their roundings are relative to.
@@ -101,10 +101,10 @@ class MetTriangles {
   const ObjectRay& ray_;
   const MeshTier& tier_;
   CrossingList& list_;
-  double most_overlap_;
+  double max_overlap_;
   std::size_t begin_ = 0;
-  double found_up_to_ = infinity;  ///< there may be more crossings beyond, where the last ends
-  std::uint32_t last_ = no_face;   ///< its triangle
+  double found_up_to_ = infinity;       ///< there may be more crossings beyond, where the last ends
+  std::uint32_t last_ = invalid_index;  ///< its triangle
   Facing last_facing_ = Facing::unknown;
   /// Says that crossings are left out at the end, and whether they are odd in number: whether the
   /// line is inside after the last that is not.
@@ -130,7 +130,7 @@ bool MetTriangles<Triangles>::append() {
 template <class Triangles>
 bool MetTriangles<Triangles>::finish() {
   sort();
-  if (ray_.start.face != no_face && !agree_with_start()) return find_all();
+  if (ray_.start.face != invalid_index && !agree_with_start()) return find_all();
   drop_empty_parts();
   if (mesh_.counts_windings()) close_gaps();
   take_turns();
@@ -152,7 +152,7 @@ bool MetTriangles<Triangles>::find_all() {
 /// has put there.
 template <class Triangles>
 double MetTriangles<Triangles>::start_slack() const {
-  if (ray_.start.face == no_face) return 0;
+  if (ray_.start.face == invalid_index) return 0;
   constexpr double share = 0x1p-30;
   return share * place_size() / largest_component(ray_.direction);
 }
@@ -160,7 +160,7 @@ double MetTriangles<Triangles>::start_slack() const {
 /// Returns how far before or behind its triangle a crossing may reach: keep_in_triangle() finds
 /// those exactly that rounding has put farther away.
 template <class Triangles>
-double MetTriangles<Triangles>::most_overlap() const {
+double MetTriangles<Triangles>::max_overlap() const {
   constexpr double share = 0x1p-32;
   return share * place_size() / largest_component(ray_.direction);
 }
@@ -171,7 +171,7 @@ template <class Triangles>
 void MetTriangles<Triangles>::find(bool first_is_enough) {
   const typename Triangles::Slabs slabs(ray_.origin, ray_.direction, line_.origin_error());
   LineSpan part{slabs.to_s(begin_of_line()), infinity};
-  const double margin = mesh_.is_closed() ? 2 * most_overlap_ : 0;
+  const double margin = mesh_.is_closed() ? 2 * max_overlap_ : 0;
   constexpr std::size_t usual = 256;
   OpenNodes<TreePart, usual> open;
   open.push({-infinity, mesh_.root()});
@@ -227,7 +227,7 @@ bool MetTriangles<Triangles>::may_be_last(const Crossing& crossing, Facing facin
   if (!ray_.is_first_asked(crossing) || !(highest(crossing) < infinity)) return false;
   if (!mesh_.is_closed()) return true;
   return (facing == Facing::outwards || facing == Facing::inwards) &&
-         (ray_.start.face == no_face || lowest(crossing) > 0);
+         (ray_.start.face == invalid_index || lowest(crossing) > 0);
 }
 
 /// Leaves out what is beyond the last crossing that matters. Returns false if that is not alone.
@@ -284,7 +284,7 @@ void MetTriangles<Triangles>::keep_in_triangle(const Triangle& triangle, const T
   reach += largest_component(ray_.origin);
   const double slack = roundings * unit_roundoff * reach * scale;
   const bool is_there = crossing.t >= low - slack && crossing.t <= high + slack;
-  if (is_there && !(crossing.error > std::min(high - low + slack, most_overlap_))) return;
+  if (is_there && !(crossing.error > std::min(high - low + slack, max_overlap_))) return;
   const ExactPlane plane = ExactPlane::through(in_plane.a, in_plane.b, in_plane.c);
   const ExactPlane::Fraction t = plane.meet_exactly(line_.exact());
   if (t.side == 0) return;

@@ -40,7 +40,7 @@ void MetTriangles<Triangles>::close_gaps() {
     if (kept != first() && met->entering) {
       const Crossing& before = *(kept - 1);
       const double reach =
-          std::min(before.error, most_overlap_) + std::min(met->error, most_overlap_);
+          std::min(before.error, max_overlap_) + std::min(met->error, max_overlap_);
       if (!starts_on(before.face) && !starts_on(met->face) && met->t - before.t <= reach &&
           tier_.may_be_out_of_order()) {
         --kept;

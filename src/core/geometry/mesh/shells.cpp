@@ -146,8 +146,8 @@ void find_overlaps(const MeshTriangles& mesh, const SelfMeetings& meetings, cons
   CrossingList crossings;
   int left = 4096;
   std::size_t work = 0;
-  constexpr std::size_t most_work = std::size_t{1} << 24;  // crossings, some seconds of them
-  for (std::uint32_t i = 0; i < mesh.size() && left > 0 && work < most_work; ++i) {
+  constexpr std::size_t max_work = std::size_t{1} << 24;  // crossings, some seconds of them
+  for (std::uint32_t i = 0; i < mesh.size() && left > 0 && work < max_work; ++i) {
     const std::optional<std::uint32_t> met = meetings.met_by(i);
     if (!met || (count.is_marked(i) && count.is_marked(*met))) continue;
     --left;

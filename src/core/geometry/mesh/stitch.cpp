@@ -219,7 +219,7 @@ std::vector<std::uint32_t> ends_of(std::span<const OpenEdge> edges) {
 std::uint64_t stitch(RepairedMesh& mesh, double tolerance) {
   // Of T-junctions there are far fewer. Only edges that lie on one another by the thousand have as
   // many, each with the vertices of all others on it.
-  const std::uint64_t most_divisions = 16 * mesh.triangles.size() + (1u << 16u);
+  const std::uint64_t max_divisions = 16 * mesh.triangles.size() + (1u << 16u);
   std::vector<OpenEdge> edges = open_edges(mesh.triangles);
   if (edges.empty()) return 0;
   VertexTree tree(mesh.positions, ends_of(edges), tolerance);
@@ -236,12 +236,12 @@ std::uint64_t stitch(RepairedMesh& mesh, double tolerance) {
         return std::find(own.begin(), own.end(), stop.vertex) != own.end();
       });
       divisions += stops.size();
-      if (divisions > most_divisions) {
+      if (divisions > max_divisions) {
         throw Error(
             ErrorCode::limit,
             text::format("stitch finds more than {} vertices on edges: too many edges lie on "
                          "one another",
-                         most_divisions),
+                         max_divisions),
             "stitch");
       }
       const bool is_upwards = edge->from == edge->low;

@@ -28,8 +28,8 @@ namespace {
 }
 
 void check_indices(std::span<const TriangleIndices> triangles, std::size_t positions) {
-  if (triangles.size() > BvhChild::most_items || positions > 0xffffffffu) {
-    reject_mesh(text::format("a mesh has at most {} triangles", BvhChild::most_items), "triangles");
+  if (triangles.size() > BvhChild::max_items || positions > 0xffffffffu) {
+    reject_mesh(text::format("a mesh has at most {} triangles", BvhChild::max_items), "triangles");
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t index : triangles[i]) {

@@ -97,8 +97,8 @@ bool enclose(const EnclosedPlane& plane, const FilterLine<Real>& line,
 
 /// Returns whether lines that start on a plane downwards go below it: those that are not flat.
 template <class Real>
-MaskOf<Real> goes_into(const EnclosedPlane& plane, std::uint32_t /*face*/,
-                       const FilterLine<Real>& line) {
+MaskOf<Real> starts_inwards(const EnclosedPlane& plane, std::uint32_t /*face*/,
+                            const FilterLine<Real>& line) {
   const EnclosedCrossing<Real> crossing = enclose(plane, line);
   return crossing.from <= crossing.to && plane.rate(line) < 0.0;
 }

@@ -117,7 +117,7 @@ void MovedPoint::meet(const Profile::Piece& piece) {
   const ShiftMask across = below(piece.from) ^ below(piece.to);
   const bool is_level = compare(piece.from, 1) == 0 && compare(piece.to, 1) == 0;
   ShiftMask left = 0;
-  if (across != 0 || is_level || piece.arc != Profile::no_arc) left = left_of(piece);
+  if (across != 0 || is_level || piece.arc != invalid_index) left = left_of(piece);
   const bool rises = piece.to.y > piece.from.y;
   inside_ ^= across & (rises ? left : complement(left));
   if (is_on(left)) {
@@ -129,7 +129,7 @@ void MovedPoint::meet(const Profile::Piece& piece) {
       if (to != 0) toggle_line(piece, true);
     }
   }
-  if (piece.arc != Profile::no_arc) meet_arc(piece, left);
+  if (piece.arc != invalid_index) meet_arc(piece, left);
 }
 
 void MovedPoint::meet_arc(const Profile::Piece& piece, ShiftMask left) {

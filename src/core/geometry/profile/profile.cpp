@@ -21,7 +21,7 @@ using namespace core;
 
 namespace {
 
-constexpr std::size_t most_pieces = std::size_t{1} << 26;
+constexpr std::size_t max_pieces = std::size_t{1} << 26;
 
 [[noreturn]] void reject_profile(const std::string& message) {
   throw Error(ErrorCode::invalid_argument, "profile: " + message, "profile");
@@ -183,8 +183,8 @@ Profile::Profile(std::span<const Contour> contours) : contours_(contours.begin()
   if (contours.empty()) reject_profile("it must have a contour");
   std::size_t corners = 0;
   for (const Contour& contour : contours) corners += contour.size();
-  if (corners > most_pieces) {
-    reject_profile(text::format("it has at most {} corners (it has {})", most_pieces, corners));
+  if (corners > max_pieces) {
+    reject_profile(text::format("it has at most {} corners (it has {})", max_pieces, corners));
   }
   for (std::size_t i = 0; i < contours.size(); ++i) add(contours[i], i);
   find_lines();
@@ -281,7 +281,7 @@ void Profile::build_tree() {
     const Piece& piece = pieces_[i];
     boxes[i].include(piece.from);
     boxes[i].include(piece.to);
-    if (piece.arc != no_arc) boxes[i].include(bounds_of(piece, arcs_[piece.arc]));
+    if (piece.arc != invalid_index) boxes[i].include(bounds_of(piece, arcs_[piece.arc]));
     bounds_.include(boxes[i]);
   }
   // The heuristic weighs the boxes' surfaces, which shall be as their sides in the plane.

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/invalid_index.hpp"
 #include "core/geometry/bounds.hpp"
 #include "core/geometry/bvh.hpp"
 #include "crt/primitives.hpp"
@@ -35,17 +36,15 @@ class Profile {
  public:
   explicit Profile(std::span<const Contour> contours);
 
-  static constexpr std::uint32_t no_arc = 0xffffffffu;
-
   /// A Piece leads straight from one corner to the next. All points of a profile have z = 0.
   struct Piece {
     Vec3 from;
     Vec3 to;
-    std::uint32_t arc = no_arc;  ///< the arc whose chord it is
-    std::uint32_t first = 0;     ///< the first piece on the same straight line
-    bool turned = false;         ///< whether that one has the opposite direction
-    double share_from = 0;       ///< of the contour's length before the piece
-    double share_to = 1;         ///< and at its end
+    std::uint32_t arc = core::invalid_index;  ///< the arc whose chord it is
+    std::uint32_t first = 0;            ///< the first piece on the same straight line
+    bool turned = false;                ///< whether that one has the opposite direction
+    double share_from = 0;              ///< of the contour's length before the piece
+    double share_to = 1;                ///< and at its end
   };
 
   struct Arc {
@@ -62,7 +61,7 @@ class Profile {
   /// arc where it has one, and then the chords of the arcs.
   struct Wall {
     std::uint32_t piece = 0;
-    std::uint32_t arc = no_arc;  ///< none for a straight wall
+    std::uint32_t arc = core::invalid_index;  ///< none for a straight wall
   };
   std::uint32_t wall_count() const {
     return static_cast<std::uint32_t>(pieces_.size() + arcs_.size());

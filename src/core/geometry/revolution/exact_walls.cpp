@@ -275,7 +275,7 @@ void ExactWalls::meet_arc(const Profile::Arc& arc, std::vector<ExactWall>& walls
 void ExactWalls::meet(std::uint32_t number, std::vector<ExactWall>& walls) const {
   const Profile::Piece& piece = profile_.pieces()[number];
   const std::size_t before = walls.size();
-  if (piece.arc != Profile::no_arc) {
+  if (piece.arc != invalid_index) {
     meet_arc(profile_.arcs()[piece.arc], walls);
   } else {
     meet_piece(number, walls);

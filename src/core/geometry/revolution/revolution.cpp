@@ -82,7 +82,7 @@ void RevolutionShape::finish_point(std::uint32_t face, bool with_uv,
   const Real turned = turn(point.position.z, point.position.x);
   point.u = select(turned > 0.5 + 0.5 * turns_, Real{}, min(turned / turns_, broadcast<Real>(1)));
   const Profile::Wall wall = profile.wall(wall_of_face(face));
-  if (wall.arc != Profile::no_arc) {
+  if (wall.arc != invalid_index) {
     const Profile::Arc& arc = profile.arcs()[wall.arc];
     point.v = share_of_arc<Real>(profile, arc, (x - arc.center.x) / arc.radius,
                                  (point.position.y - arc.center.y) / arc.radius);
@@ -158,7 +158,7 @@ void check_piece(const Profile& profile, const Profile::Piece& piece, const Corn
   if (rise != 0 && rise < smallest_length) {
     reject_profile(place, "must be as high as the corner before, or at least 1e-100 off");
   }
-  if (piece.arc == Profile::no_arc) return;
+  if (piece.arc == invalid_index) return;
   const Profile::Arc& arc = profile.arcs()[piece.arc];
   // Rounding may have put the nearest point of a circle that touches the axis beyond it.
   constexpr double rounding = 0x1p-40;

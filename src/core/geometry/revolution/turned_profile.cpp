@@ -46,7 +46,7 @@ Primitive TurnedProfile::body(std::uint32_t number) const {
   if (number < end_count) return Plane{.normal = normals[number], .position = {0, 0, 0}};
   const Profile::Wall wall = profile->wall(number - end_count);
   const Profile::Piece& piece = profile->pieces()[wall.piece];
-  if (wall.arc != Profile::no_arc) {
+  if (wall.arc != invalid_index) {
     const Profile::Arc& arc = profile->arcs()[wall.arc];
     const Vec3 center(0, arc.center.y, 0);
     const double ring = ring_of(arc);
@@ -66,11 +66,11 @@ Primitive TurnedProfile::body(std::uint32_t number) const {
 std::uint32_t TurnedProfile::body_of_surface(std::uint32_t face) const {
   if (face < end_count) return plane_of_end(face);
   const Profile::Wall wall = profile->wall(wall_of_face(face));
-  if (wall.arc == Profile::no_arc) {
+  if (wall.arc == invalid_index) {
     // An arc's own number is that of its chord.
     const std::uint32_t first = profile->pieces()[wall.piece].first;
     const std::uint32_t arc = profile->pieces()[first].arc;
-    return end_count + (arc == Profile::no_arc ? first : profile->chord_of(arc));
+    return end_count + (arc == invalid_index ? first : profile->chord_of(arc));
   }
   return end_count + profile->arcs()[profile->arcs()[wall.arc].first].piece;
 }
@@ -105,7 +105,7 @@ Bounds TurnedProfile::bounds() const {
 }
 
 FaceStart TurnedProfile::start_on(std::uint32_t body, const FaceStart& start) const {
-  if (start.face == no_face) return {};
+  if (start.face == invalid_index) return {};
   FaceStart result{.face = 0, .side = start.side, .on_face = start.on_face};
   if (start.face < end_count || body < end_count) {
     const bool is_on_end = start.face < end_count && plane_of_end(start.face) == body;

@@ -70,10 +70,10 @@ class TurnedWalls {
   using Walls = std::pmr::vector<TurnedWall>;
 
   bool starts_on(std::uint32_t face) const {
-    return ray_.start.face != no_face && are_on_one_surface(profile_, face, ray_.start.face);
+    return ray_.start.face != invalid_index && are_on_one_surface(profile_, face, ray_.start.face);
   }
   bool is_at_start(const Crossing& crossing) const {
-    return ray_.start.face != no_face && crossing.t == 0 && crossing.error == 0;
+    return ray_.start.face != invalid_index && crossing.t == 0 && crossing.error == 0;
   }
   TurnedWall& add(const Crossing& crossing, std::uint32_t face, ShiftMask shifts,
                   bool along_normal);
@@ -117,7 +117,7 @@ void TurnedWalls::append() {
   if (search.misses()) return;
   search.each(profile_.tree(), [&](std::uint32_t number) {
     const Profile::Piece& piece = profile_.pieces()[number];
-    const bool is_boundary = piece.arc != Profile::no_arc || !TurnedProfile::is_on_axis(piece);
+    const bool is_boundary = piece.arc != invalid_index || !TurnedProfile::is_on_axis(piece);
     if (is_boundary) candidates_.push_back(number);
   });
   if (candidates_.empty()) return;
@@ -161,7 +161,7 @@ TurnedWall& TurnedWalls::add(const Crossing& crossing, std::uint32_t face, Shift
 bool TurnedWalls::passes_corner(const CandidateSearch& search, const Profile::Piece& piece) const {
   const Vec3 along = piece.to - piece.from;
   double off = search.shortest();
-  if (piece.arc != Profile::no_arc) {
+  if (piece.arc != invalid_index) {
     off += profile_.arcs()[piece.arc].margin * largest_component(along);
   } else if (along.y != 0) {
     off *= std::max(1.0, std::abs(along.x / along.y));
@@ -188,9 +188,10 @@ bool TurnedWalls::meet_wall(std::uint32_t number) {
   tier_.meet(body, start, met_);
   for (const Crossing& crossing : met_) {
     // A ray that starts on a face starts on no other that is on the same surface.
-    const bool is_start = start.face != no_face && is_at_start(crossing) && ray_.start.on_face;
+    const bool is_start =
+        start.face != invalid_index && is_at_start(crossing) && ray_.start.on_face;
     const std::optional<bool> is_in = is_start ? start.on_face : is_in_wall(piece, crossing);
-    if (!is_in || (start.face == no_face && has_twin(crossing))) return false;
+    if (!is_in || (start.face == invalid_index && has_twin(crossing))) return false;
     if (*is_in) add(crossing, face_of_wall(number, false), both_shifts, !crossing.entering);
   }
   return true;
@@ -224,7 +225,7 @@ std::optional<bool> TurnedWalls::is_in_wall(const Profile::Piece& piece,
   const auto is_off = [&](double a, double b) {
     return std::abs(a - b) > place.error + filter_rounding * std::abs(b);
   };
-  if (piece.arc != Profile::no_arc) {
+  if (piece.arc != invalid_index) {
     const double left = along.x * place.y - along.y * (place.x - piece.from.x);
     const double error = 2 * (place.error + filter_rounding * piece.from.x) *
                          (std::abs(along.x) + std::abs(along.y));
@@ -389,7 +390,7 @@ void append_crossings(const TurnedProfile& turned, const ObjectRay& ray, const R
   const std::size_t begin = out.size();
   TurnedWalls walls(turned, ray, tier, out);
   walls.append();
-  if (ray.start.face == no_face || !ray.start.on_face) return;
+  if (ray.start.face == invalid_index || !ray.start.on_face) return;
   const double shortest = unit_roundoff * turned.size() / largest_component(ray.direction);
   agree_with_start(ray, walls.root_at_start(), turned.profile->bounds().farthest(), shortest, begin,
                    out);

@@ -112,8 +112,8 @@ bool enclose(const EnclosedSphere& sphere, const FilterLine<Real>& line, const M
 /// Returns whether lines that start on a sphere inwards come into it there: the distance of their
 /// origins from it is what rounding makes of 0.
 template <class Real>
-MaskOf<Real> goes_into(const EnclosedSphere& sphere, std::uint32_t /*face*/,
-                       const FilterLine<Real>& line) {
+MaskOf<Real> starts_inwards(const EnclosedSphere& sphere, std::uint32_t /*face*/,
+                            const FilterLine<Real>& line) {
   constexpr double share_of_start = 0x1p-4;
   const std::array<Real, 3> offset = offset_to(line, sphere.center);
   const Real squared_offset = dot(offset, offset);

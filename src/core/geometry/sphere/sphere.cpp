@@ -38,11 +38,11 @@ void SphereShape::write_span(const Ray& ray, const WantedEnds<Real>& /*wanted*/,
   span.leave_root = 1;
 }
 
-void SphereShape::exit(const PlainRay<double>& line, SpanEnd<double>& end) const {
+void SphereShape::exit_from_surface(const PlainRay<double>& line, SpanEnd<double>& end) const {
   const auto other = SphereOtherEnd<double>::of(line, center_, radius_, unit_);
   end = {.known = other.t > 0.0, .t = other.t, .error = other.error};
 }
-void SphereShape::exit(const RayLanes& lines, SpanEnd<Lanes>& end) const {
+void SphereShape::exit_from_surface(const RayLanes& lines, SpanEnd<Lanes>& end) const {
   const auto other = SphereOtherEnd<Lanes>::of(lines, center_, radius_, unit_);
   end = {.known = other.t > 0.0, .t = other.t, .error = other.error};
 }

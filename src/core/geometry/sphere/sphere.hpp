@@ -118,8 +118,8 @@ class SphereShape final : public ShapeOfSpans<SphereShape> {
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   template <class Real, class Ray>
   void write_span(const Ray& ray, const WantedEnds<Real>& wanted, ShapeSpan<Real>& span) const;
-  void exit(const PlainRay<double>& line, SpanEnd<double>& end) const override;
-  void exit(const RayLanes& lines, SpanEnd<Lanes>& end) const override;
+  void exit_from_surface(const PlainRay<double>& line, SpanEnd<double>& end) const override;
+  void exit_from_surface(const RayLanes& lines, SpanEnd<Lanes>& end) const override;
   Vec3 anchor(std::uint32_t) const override { return center_; }
   template <class Real>
   void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,

@@ -27,10 +27,10 @@ struct EnclosedTorus {
     const Vec3 place = placement.point_to_world(center);
     const Vec3 along = placement.point_to_world(center + axis) - place;
     // Where the place is far larger than the axis the difference has too few digits left.
-    constexpr double most_sizes = 0x1p12;
+    constexpr double max_sizes = 0x1p12;
     const double in_world = scale * size();
-    if (!(largest_component(place) < most_sizes * in_world) || !(largest_component(along) > 0) ||
-        !(largest_component(place) < most_sizes * largest_component(along))) {
+    if (!(largest_component(place) < max_sizes * in_world) || !(largest_component(along) > 0) ||
+        !(largest_component(place) < max_sizes * largest_component(along))) {
       return {};
     }
     constexpr double roundings = 0x1p-30;

@@ -290,7 +290,7 @@ auto TorusLineOf<Real>::first_entry(const Mask& wanted) const -> Entry {
 /// The last span ends after the last point that is found to be inside. If that point is not ahead
 /// of the start, the span ends at the start or before it.
 template <class Real>
-auto TorusLineOf<Real>::comes_back(const Mask& wanted) const -> Mask {
+auto TorusLineOf<Real>::reenters(const Mask& wanted) const -> Mask {
   Range whole;
   const Mask comes_near = range(wanted, whole);
   if (!any(comes_near)) return comes_near;

@@ -64,7 +64,7 @@ class TorusLineOf {
 
   /// Returns which of the wanted lines are inside somewhere at x > 0. They start on the surface and
   /// leave outwards. For the others spans() surely has nothing there.
-  Mask comes_back(const Mask& wanted) const;
+  Mask reenters(const Mask& wanted) const;
 
   Real half_slope(const Real& x) const { return level(x).half_slope; }           ///< G' / 2
   Real half_curvature(const Real& x) const { return half_curvature(level(x)); }  ///< G'' / 2

@@ -81,11 +81,11 @@ void TorusShape::write_span(const Ray& ray, const WantedEnds<Real>& wanted,
 
 bool TorusShape::leaves_for_good(const ObjectRay& ray, bool wanted) const {
   const auto line = NearLine::at_origin(ray, center_, unit_);
-  return !in_frame<double>(line, true).comes_back(wanted);
+  return !in_frame<double>(line, true).reenters(wanted);
 }
 LaneMask TorusShape::leaves_for_good(const ObjectRayLanes& rays, const LaneMask& wanted) const {
   const auto line = NearLineOf<Lanes>::at_origin(rays, center_, unit_);
-  return !in_frame<Lanes>(line, true).comes_back(wanted);
+  return !in_frame<Lanes>(line, true).reenters(wanted);
 }
 
 bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {

@@ -68,9 +68,9 @@ struct ChannelUse {
 };
 
 ChannelUse channel_use(const OIIO::ImageSpec& spec) {
-  constexpr int most_channels = 4;
+  constexpr int max_channels = 4;
   ChannelUse use;
-  use.count = std::min(spec.nchannels, most_channels);
+  use.count = std::min(spec.nchannels, max_channels);
   if (spec.alpha_channel >= 0 && spec.alpha_channel < use.count) use.alpha = spec.alpha_channel;
   std::vector<int> colors;
   for (int channel = 0; channel < use.count; ++channel) {
@@ -121,7 +121,7 @@ void check_size(const OIIO::ImageSpec& spec, const ImageFilesPicture& picture) {
 /// there, so that a short file with a tall claim costs nothing.
 void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
                  const ImageFilesPicture& picture) {
-  constexpr int most_rows = 64;
+  constexpr int max_rows = 64;
   constexpr std::size_t strip_bytes = std::size_t{1} << 24;
   // A row takes so much as it is in the file, or as the floats of four channels.
   const std::size_t row_bytes =
@@ -129,7 +129,7 @@ void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
   const int strip =
       spec.tile_width > 0
           ? spec.tile_height
-          : static_cast<int>(std::clamp<std::size_t>(strip_bytes / row_bytes, 1, most_rows));
+          : static_cast<int>(std::clamp<std::size_t>(strip_bytes / row_bytes, 1, max_rows));
   const ChannelUse use = channel_use(spec);
   const auto width = static_cast<std::size_t>(spec.width);
   const auto channels = static_cast<std::size_t>(use.count);

@@ -3,16 +3,16 @@
 #include <variant>
 #include <vector>
 
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 #include "crt/validate.hpp"
 
 namespace crt {
 
 bool lacks_material(const Entity& entity) {
-  constexpr std::size_t most_nodes = 256;
+  constexpr std::size_t max_nodes = 256;
   std::vector<const EntityNode*> open = {&entity.node()};
   for (std::size_t i = 0; i < open.size(); ++i) {
-    if (open.size() > most_nodes) return true;
+    if (open.size() > max_nodes) return true;
     const EntityNode::Content& content = open[i]->content;
     if (const auto* wrapper = std::get_if<EntityWrapper>(&content)) {
       if (!wrapper->material) open.push_back(wrapper->child.get());

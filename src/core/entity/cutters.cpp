@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 
 namespace crt {
 

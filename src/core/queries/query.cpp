@@ -10,9 +10,9 @@
 
 #include "core/math/float_environment.hpp"
 #include "core/prepare/prepared_data.hpp"
-#include "core/render/input_rays.hpp"
-#include "core/render/query_packet.hpp"
-#include "core/render/ray_start.hpp"
+#include "core/queries/input_rays.hpp"
+#include "core/queries/query_packet.hpp"
+#include "core/queries/ray_start.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
 
@@ -318,9 +318,9 @@ void RayQueries::locate(std::span<const Vec3> points, std::span<Location> locati
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!core::is_finite(points[i]))
         throw Error(ErrorCode::invalid_argument, "points must be finite", "points");
-      const core::Surrounding in = state_->data().innermost(points[i], state_->work());
+      const core::ContainingSolid in = state_->data().innermost(points[i], state_->work());
       locations[i] = {};
-      if (in.object == core::nothing) continue;
+      if (in.object == core::invalid_index) continue;
       const core::Ids ids = state_->data().ids({.object = in.object, .leaf = in.leaf});
       locations[i] = {.entity_id = ids.entity, .part_id = ids.part, .user = ids.user};
     }

@@ -6,7 +6,7 @@
 #include <crt/elementary.hpp>
 #include <limits>
 
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 #include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/shape.hpp"
 #include "crt/error.hpp"

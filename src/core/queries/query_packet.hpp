@@ -11,10 +11,10 @@
 #include <span>
 #include <type_traits>
 
+#include "core/prepare/hit_faces.hpp"
 #include "core/prepare/prepared_data.hpp"
-#include "core/render/hit_faces.hpp"
-#include "core/render/input_rays.hpp"
-#include "core/render/ray_start.hpp"
+#include "core/queries/input_rays.hpp"
+#include "core/queries/ray_start.hpp"
 #include "crt/query.hpp"
 
 namespace crt::core {

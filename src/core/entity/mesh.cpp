@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/csg/entity_node.hpp"
+#include "core/entity/entity_node.hpp"
 #include "core/geometry/checks.hpp"
 #include "core/geometry/mesh/repair.hpp"
 #include "core/geometry/mesh/triangles.hpp"

@@ -1,4 +1,4 @@
-#include "core/render/ray_start.hpp"
+#include "core/queries/ray_start.hpp"
 
 #include <algorithm>
 #include <cmath>
