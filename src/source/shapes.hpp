@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -13,16 +14,16 @@ namespace crt::source {
 /// An Argument is a field of a primitive, as C++ and as Python name it. C has those that Python
 /// has, in their order. An empty name says that there is none.
 struct Argument {
-  const char* cpp;
-  const char* python;
+  std::string_view cpp;
+  std::string_view python;
   std::variant<double, Vec3> value;
   bool is_angle = false;  ///< which Python has in degrees
 };
 
 /// A ShapeCode says how a primitive is made of numbers.
 struct ShapeCode {
-  const char* name;  ///< in C++ and Python
-  const char* c;     ///< "sphere", of crt_sphere_create
+  std::string name;  ///< in C++ and Python
+  std::string c;     ///< "sphere", of crt_sphere_create
   std::vector<Argument> arguments;
 };
 

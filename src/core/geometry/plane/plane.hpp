@@ -35,7 +35,6 @@ class PlaneShape final : public ShapeOfPoints<PlaneShape> {
   PlaneAxes axes_;
 };
 
-void validate(const Plane& plane);
 inline bool is_solid(const Plane&) {
   return true;
 }

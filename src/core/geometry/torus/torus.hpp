@@ -112,7 +112,6 @@ class TorusShape final : public ShapeOfPoints<TorusShape> {
   double tube_;  ///< r in units
 };
 
-void validate(const Torus& torus);
 inline bool is_solid(const Torus&) {
   return true;
 }
