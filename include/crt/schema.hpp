@@ -138,7 +138,7 @@ struct Uses {
   std::string_view c{};             ///< its name in C and Python
   std::string_view alpha{};         ///< what these call the alpha of a colour, if they have it
   std::string_view default_text{};  ///< how scripts say a default that is no value
-  /// Scripts have the angle in degrees. This is what they are told of one that is out of range.
+  /// Scripts have the angle in degrees. This is their message about one that is out of range.
   std::string_view degrees{};
   std::string_view option{};    ///< what the command's help says
   bool always_written = false;  ///< scripts of other years have another default
