@@ -90,6 +90,7 @@ AttributeType attribute(const Row& row) {
     }
   }
   type.about = row.about;
+  type.is_of_schema = true;
   return type;
 }
 

@@ -11,16 +11,11 @@
 #include "lang/failure.hpp"
 #include "lang/field_objects.hpp"
 #include "lang/mesh_object.hpp"
-#include "lang/no_size.hpp"
-#include "lang/object_builder.hpp"
+#include "lang/schema_objects.hpp"
 #include "lang/text_object.hpp"
 #include "text/format.hpp"
 
 namespace crt::lang {
-
-namespace {
-
-// ---- entities -------------------------------------------------------------------------------
 
 void warn_of(const NoSize& no_size, const ObjectSite& site) {
   const auto blamed =
@@ -31,20 +26,9 @@ void warn_of(const NoSize& no_size, const ObjectSite& site) {
       text::format("'{}' {}: what has no size draws nothing", no_size.attribute, no_size.reason));
 }
 
-/// Makes the row of a primitive, which takes what its table has.
-template <class Shape>
-ObjectType entity() {
-  return object<Shape>(
-      schema::table<Shape>.name, attributes_of<Shape>(),
-      +[](Shape shape, const ObjectSite& site) -> Value {
-        site.context.count_made(site.name_span);
-        const std::optional<NoSize> no_size = give_size(shape);
-        Entity entity(std::move(shape));
-        if (!no_size) return entity;
-        warn_of(*no_size, site);
-        return empty_entity();
-      });
-}
+namespace {
+
+// ---- entities -------------------------------------------------------------------------------
 
 /// A HeightFieldOfScript has its heights in one of two forms.
 struct HeightFieldOfScript {
@@ -177,13 +161,6 @@ Value finish_camera(Camera camera, const ObjectSite&) {
   return std::make_shared<const Camera>(camera);
 }
 
-template <class Kind>
-Value finish_light(Kind kind, const ObjectSite&) {
-  auto light = std::make_shared<const Light>(kind);
-  validate(*light);
-  return light;
-}
-
 /// Holds the three kinds of background in one. The given attributes decide which it is.
 struct BackgroundFields {
   std::optional<Color> color;
@@ -245,10 +222,8 @@ std::span<const ObjectType> object_types() {
     schema::for_each_kind<Pattern>(
         [&types]<class Kind>(std::type_identity<Kind>) { types.push_back(pattern<Kind>()); });
     types.push_back(object<Camera>("Camera", attributes_of<Camera>(), finish_camera));
-    schema::for_each_kind<Light>([&types]<class Kind>(std::type_identity<Kind>) {
-      types.push_back(
-          object<Kind>(schema::table<Kind>.name, attributes_of<Kind>(), finish_light<Kind>));
-    });
+    schema::for_each_kind<Light>(
+        [&types]<class Kind>(std::type_identity<Kind>) { types.push_back(light<Kind>()); });
     types.push_back(background());
     return types;
   }();

@@ -26,8 +26,9 @@ struct AttributeType {
   /// States the range in the script's units, where the core's own message has others: "must be ...
   /// degrees". Elsewhere it is empty.
   std::string_view rule;
-  /// Says what it means, as the reference does. It is empty for a row that is not of the schema.
+  /// Says what it means, as the reference does, if it is a row of the schema.
   std::string_view about;
+  bool is_of_schema = false;
   /// Puts a value into the C++ struct that the object becomes. Throws a Failure at the value.
   std::function<void(void* object, const Given& given, Context& context)> assign;
 };

@@ -13,19 +13,9 @@ namespace crt::source {
 
 namespace {
 
-/// Returns the fields that are numbers, in their order.
 template <class Kind>
 ShapeCode code_of(const Kind& it) {
-  ShapeCode code{std::string(schema::table<Kind>.name),
-                 std::string(schema::c_name(schema::table<Kind>.name).text()),
-                 {}};
-  schema::for_each_field<Kind>([&]<class Row>(const Row& row) {
-    using Value = typename Row::Value;
-    if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, Vec3>) {
-      code.arguments.push_back({row.name, row.c_name(), it.*row.member, !row.uses.degrees.empty()});
-    }
-  });
-  return code;
+  return shape_code_of(it);
 }
 // In C and Python these have an axis, which may lie anywhere.
 ShapeCode code_of(const Extrusion& it) {
