@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "lang/settings.hpp"
@@ -67,6 +68,23 @@ std::string with_attribute_tables(const std::string& page) {
     result += attribute_rows(*type, meanings) + line + '\n';
   }
   return result;
+}
+
+std::string with_object_words(const std::string& dictionary) {
+  std::vector<std::string> words;
+  const auto add = [&words](std::string_view word) {
+    const std::string line = fmt::format("\"{}\"\n", word);
+    if (std::find(words.begin(), words.end(), line) == words.end()) words.push_back(line);
+  };
+  for (const lang::ObjectType& type : lang::object_types()) add(type.name);
+  for (const lang::ObjectType& type : lang::object_types())
+    for (const lang::AttributeType& attribute : type.attributes) add(attribute.name);
+  for (const lang::AttributeType& attribute : lang::settings_type().attributes) add(attribute.name);
+  const std::string heading = "# Objects and attributes, as ./dev generate writes them:\n";
+  const std::size_t begin = dictionary.find(heading) + heading.size();
+  const std::size_t end = dictionary.find("# More words:", begin);
+  return fmt::format("{}{}{}", dictionary.substr(0, begin), fmt::join(words, ""),
+                     dictionary.substr(end));
 }
 
 }  // namespace crt::test

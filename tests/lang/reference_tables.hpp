@@ -1,4 +1,5 @@
-// The tables of attributes in docs/language.md are written here, from the objects of the language.
+// The tables of attributes in docs/language.md, and the words of the fuzzer's dictionary, are
+// written here from the objects of the language.
 #pragma once
 
 #include <map>
@@ -20,5 +21,8 @@ std::string attribute_rows(const lang::ObjectType& type,
 
 /// Returns the reference with the tables of attributes as the code has them.
 std::string with_attribute_tables(const std::string& page);
+
+/// Returns the fuzzer's dictionary with the names of all objects and attributes.
+std::string with_object_words(const std::string& dictionary);
 
 }  // namespace crt::test

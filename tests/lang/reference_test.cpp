@@ -112,6 +112,12 @@ TEST_CASE("the reference's tables of attributes are those of the code, row by ro
   }
 }
 
+TEST_CASE("the parser's fuzzer knows the names of all objects and attributes") {
+  std::ifstream file(fs::path(CRT_SOURCE_DIR) / "tests" / "fuzz" / "parser.dict");
+  const std::string words((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  CHECK_MESSAGE(crt::test::with_object_words(words) == words, "run ./dev generate");
+}
+
 TEST_CASE("the reference lists every built-in by its name") {
   std::string table;
   for (const std::string& line : reference_lines()) {
