@@ -66,7 +66,7 @@ struct Rule {
     between,         ///< a number from `low` to `high`
     above,           ///< a number above 0, at most `high`
     power_of_two,    ///< from `low` to `high`
-    length,          ///< from 1e-100 to 1e100
+    length,          ///< a number, or three, from 1e-100 to 1e100
     length_or_zero,  ///< likewise, or 0
     point,           ///< three coordinates of at most 1e100
     direction,       ///< likewise, and not (0, 0, 0)

@@ -1,8 +1,10 @@
 // These tables of the schema are those of primitives, a row a field (see crt/schema.hpp).
 #pragma once
 
+#include <crt/ellipsoid.hpp>
 #include <crt/primitives.hpp>
 #include <crt/schema.hpp>
+#include <variant>
 
 /// @cond tables
 namespace crt::schema {
@@ -174,6 +176,19 @@ inline constexpr auto table<Custom> = Table{
     field("shape", &Custom::shape, any, {.in_scripts = false}, ""),
     material<Custom>,
 };
+
+// ---- solids that are other ones in a place or a shape of their own --------------------------
+
+template <>
+inline constexpr auto table<Ellipsoid> = Table{
+    "Ellipsoid",
+    field("center", &Ellipsoid::center, point, required, ""),
+    field("radii", &Ellipsoid::radii, length, required, "along x, y and z, each at least 0"),
+    material<Ellipsoid>,
+};
+
+/// Lists them all.
+using PlacedSolids = std::variant<Ellipsoid>;
 
 }  // namespace crt::schema
 /// @endcond

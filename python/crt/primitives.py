@@ -27,6 +27,7 @@ __all__ = [
     "Cone",
     "Cylinder",
     "Disc",
+    "Ellipsoid",
     "Empty",
     "Extrusion",
     "HalfPlane",
@@ -526,6 +527,23 @@ class Torus(_Primitive):
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, center=center, axis=axis, radius=radius, thickness=thickness)
+
+
+class Ellipsoid(_Primitive):
+    """An Ellipsoid is a ball about `center` that is scaled to `radii` along x, y and z."""
+
+    center = _Given[Vector]()
+    radii = _Given[Vector]()
+
+    def __init__(
+        self,
+        center: Point,
+        radii: Point,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        self._make(material, id, center=center, radii=radii)
 
 
 class Disc(_Primitive):

@@ -113,6 +113,10 @@ crt_status crt_capsule_create(const double from[3], const double to[3], double r
   return create_of<crt::Capsule>(out, from, to, radius);
 }
 
+crt_status crt_ellipsoid_create(const double center[3], const double radii[3], crt_entity** out) {
+  return create_of<crt::Ellipsoid>(out, center, radii);
+}
+
 crt_status crt_torus_create(const double center[3], const double axis[3], double radius,
                             double thickness, crt_entity** out) {
   return create_of<crt::Torus>(out, center, axis, radius, thickness);

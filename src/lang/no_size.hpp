@@ -26,6 +26,15 @@ inline std::optional<NoSize> size_given(double& length, std::string_view attribu
   return NoSize{attribute, "is 0"};
 }
 
+/// Replaces lengths of 0 likewise.
+inline std::optional<NoSize> sizes_given(Vec3& lengths, std::string_view attribute) {
+  std::optional<NoSize> found;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (size_given(lengths[axis], attribute)) found = NoSize{attribute, "has a 0"};
+  }
+  return found;
+}
+
 /// Separates two ends at one place.
 inline std::optional<NoSize> size_given(const Vec3& from, Vec3& to) {
   if (from != to) return std::nullopt;
@@ -89,6 +98,8 @@ std::optional<NoSize> give_size(Shape& shape) {
       if (row.rule.kind == schema::Rule::length)
         note(size_given(shape.*row.member, row.script_name()));
     } else if constexpr (std::is_same_v<typename Row::Value, Vec3>) {
+      if (row.rule.kind == schema::Rule::length)
+        note(sizes_given(shape.*row.member, row.script_name()));
       if (row.rule.kind == schema::Rule::corner)
         note(corner_moved(schema::value_of<Vec3>(shape, row.rule.other), row.rule.other,
                           shape.*row.member, row.script_name()));

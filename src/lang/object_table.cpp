@@ -74,13 +74,15 @@ std::vector<ObjectType> entity_types() {
                                    height_field(),      entity<Quadric>(),   mesh_object(),
                                    text_object(),       entity<Implicit>()};
   for (ObjectType& type : field_objects()) types.push_back(std::move(type));
-  // All other primitives follow. Only programs can make a Custom.
-  schema::for_each_kind<Primitive>([&types]<class Kind>(std::type_identity<Kind>) {
+  // All others follow. Only programs can make a Custom.
+  const auto add = [&types]<class Kind>(std::type_identity<Kind>) {
     const auto is_it = [](const ObjectType& type) { return type.name == schema::table<Kind>.name; };
     if constexpr (!std::is_same_v<Kind, Custom>) {
       if (std::none_of(types.begin(), types.end(), is_it)) types.push_back(entity<Kind>());
     }
-  });
+  };
+  schema::for_each_kind<Primitive>(add);
+  schema::for_each_kind<schema::PlacedSolids>(add);
   return types;
 }
 

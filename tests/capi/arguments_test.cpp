@@ -56,6 +56,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"from", [&] { return crt_cylinder_create(nullptr, o, 1, &entity); }},
       {"to", [&] { return crt_cone_create(z, nullptr, 1, 0, &entity); }},
       {"to", [&] { return crt_capsule_create(z, nullptr, 1, &entity); }},
+      {"radii", [&] { return crt_ellipsoid_create(z, nullptr, &entity); }},
       {"profile", [&] { return crt_extrusion_create(nullptr, z, o, &entity); }},
       {"from", [&] { return crt_extrusion_create(square.get(), nullptr, o, &entity); }},
       {"to", [&] { return crt_extrusion_create(square.get(), z, nullptr, &entity); }},

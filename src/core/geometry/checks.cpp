@@ -83,6 +83,10 @@ void check_vector(std::string_view argument, const schema::Rule& rule, const Vec
   using enum schema::Rule::Kind;
   if (rule.kind == direction) return check_direction(argument, value);
   if (rule.kind == any) return;
+  if (rule.kind == length) {
+    for (int axis = 0; axis < 3; ++axis) check_length(argument, value[axis]);
+    return;
+  }
   check_coordinates(argument, value);
   if (rule.kind == apart) check_end(argument, other, value, rule.other);
   if (rule.kind == corner) check_corner(argument, other, value, rule.other);
