@@ -2,6 +2,8 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -16,12 +18,29 @@
 
 namespace crt::lang {
 
+template <class Value>
+struct WithoutOptional : std::type_identity<Value> {};
+template <class Value>
+struct WithoutOptional<std::optional<Value>> : std::type_identity<Value> {};
+
+/// Returns the words of an enumeration that has some in the schema.
+template <class Value>
+std::span<const schema::Name> words_of() {
+  using Enum = typename WithoutOptional<Value>::type;
+  if constexpr (requires { schema::choices<Enum>.script_names; }) {
+    return schema::choices<Enum>.script_names;
+  } else {
+    return {};
+  }
+}
+
 template <class Object, class Field>
 AttributeType attribute(std::string_view name, Field Object::*field, std::string default_text) {
   return {.name = name,
           .required = default_text.empty(),
           .type = type_text(static_cast<const Field*>(nullptr)),
           .default_text = std::move(default_text),
+          .choices = words_of<Field>(),
           .rule = {},
           .about = {},
           .assign = [field](void* object, const Given& given, Context& context) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crt/schema.hpp"
 #include "lang/context.hpp"
 #include "lang/source_map.hpp"
 #include "lang/value.hpp"
@@ -23,6 +24,8 @@ struct AttributeType {
   std::string_view type;
   /// The default is as the reference writes it, and empty for a required attribute.
   std::string default_text;
+  /// Lists the words that it takes, if it takes only some.
+  std::span<const schema::Name> choices;
   /// States the range in the script's units, where the core's own message has others: "must be ...
   /// degrees". Elsewhere it is empty.
   std::string_view rule;
