@@ -519,6 +519,12 @@ CRT_API crt_status crt_cone_create(const double from[3], const double to[3], dou
 CRT_API crt_status crt_capsule_create(const double from[3], const double to[3], double radius,
                                       crt_entity** out);
 /**
+ * Makes an ellipsoid with its axes along x, y and z: a sphere that is scaled to three radii, each
+ * > 0. Since 1.1.
+ */
+CRT_API crt_status crt_ellipsoid_create(const double center[3], const double radii[3],
+                                        crt_entity** out);
+/**
  * Makes a torus: all points within `thickness` of the circle of `radius` about `center` across
  * `axis`.
  */

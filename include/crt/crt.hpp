@@ -1,4 +1,5 @@
-// This header includes all of the C++ API but scripts (crt/script.hpp, library crt::lang).
+// This header includes all of the C++ API but scripts (crt/script.hpp, library crt::lang) and the
+// schema (crt/schema.hpp).
 #pragma once
 
 #include <crt/background.hpp>
@@ -10,6 +11,7 @@
 #include <crt/cutters.hpp>
 #include <crt/draft.hpp>
 #include <crt/elementary.hpp>
+#include <crt/ellipsoid.hpp>
 #include <crt/entity.hpp>
 #include <crt/error.hpp>
 #include <crt/field.hpp>

@@ -139,7 +139,8 @@ struct AttributeDescription {
   std::string type{};  ///< as the reference names it: "Float"
   bool required = false;
   std::string default_text{};
-  std::string documentation{};  ///< in Markdown
+  std::string documentation{};         ///< in Markdown
+  std::vector<std::string> choices{};  ///< the words that it takes, if it takes only some
 };
 
 /// An ObjectDescription says which attributes an object has.

@@ -82,6 +82,12 @@ FUNCTIONS = {
         "double radius",
         "crt_entity** out",
     ),
+    "crt_ellipsoid_create": (
+        "crt_status",
+        "const double center[3]",
+        "const double radii[3]",
+        "crt_entity** out",
+    ),
     "crt_torus_create": (
         "crt_status",
         "const double center[3]",

@@ -3,14 +3,16 @@ Entity.with_material and Entity.with_id do."""
 
 import ctypes
 import math
+import re
 from collections.abc import Sequence
-from typing import Any, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
+from typing import Any, ClassVar, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arguments, profiles
 from ._arguments import Point
+from ._functions import FUNCTIONS
 from ._handles import Reference
 from ._library import create, library
 from ._structs import reference
@@ -25,6 +27,7 @@ __all__ = [
     "Cone",
     "Cylinder",
     "Disc",
+    "Ellipsoid",
     "Empty",
     "Extrusion",
     "HalfPlane",
@@ -50,6 +53,13 @@ _NAMES = {
     "to must": "end must",
 }
 
+# What numbers must be that are lengths.
+_WANTED = {
+    "radius": "a positive number",
+    "radius2": "0 or a positive number",
+    "thickness": "a positive number",
+}
+
 
 class _Given(Generic[T]):
     """A _Given is an argument that a primitive was made with, to be read back."""
@@ -73,6 +83,7 @@ class _Given(Generic[T]):
 class _Primitive(Entity):
     """A _Primitive remembers how it was made, for its representation."""
 
+    _function: ClassVar[str]  # of the library, that makes it
     material = _Given[Material | None]()
     id = _Given[int | None]()
 
@@ -103,6 +114,24 @@ class _Primitive(Entity):
             self._take(create("crt_entity_with_id", self._handle, number))
             given["id"] = number
         self._source = name, given
+
+    def __init_subclass__(cls) -> None:
+        cls._function = "crt" + re.sub("([A-Z])", r"_\1", cls.__name__).lower() + "_create"
+
+    def _make(self, material: Material | None, id: SupportsIndex | None, **given: Any) -> None:
+        """Makes it of vectors and numbers, which are what its function takes, in that order."""
+        name = type(self).__name__
+        shown: dict[str, Any] = {}
+        arguments: list[Any] = []
+        for (key, value), declared in zip(given.items(), FUNCTIONS[self._function][1:]):
+            where = f"{name}: {key}"
+            if declared.endswith("[3]"):
+                arguments.append(_arguments.vector(value, where))
+                shown[key] = tuple(arguments[-1])
+            else:
+                arguments.append(_arguments.number(value, where, _WANTED.get(key, "a number")))
+                shown[key] = arguments[-1]
+        self._create(self._function, material, id, shown, *arguments)
 
     def _vectors(self, **points: Point) -> list[Any]:
         """Returns points as C has them."""
@@ -140,10 +169,7 @@ class Sphere(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        (middle,) = self._vectors(center=center)
-        size = self._positive(radius, "radius")
-        shown = {"center": tuple(middle), "radius": size}
-        self._create("crt_sphere_create", material, id, shown, middle, size)
+        self._make(material, id, center=center, radius=radius)
 
 
 class Box(_Primitive):
@@ -160,9 +186,7 @@ class Box(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        a, b = self._vectors(corner_a=corner_a, corner_b=corner_b)
-        shown = {"corner_a": tuple(a), "corner_b": tuple(b)}
-        self._create("crt_box_create", material, id, shown, a, b)
+        self._make(material, id, corner_a=corner_a, corner_b=corner_b)
 
 
 class Plane(_Primitive):
@@ -179,9 +203,7 @@ class Plane(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        out, place = self._vectors(normal=normal, position=position)
-        shown = {"normal": tuple(out), "position": tuple(place)}
-        self._create("crt_plane_create", material, id, shown, out, place)
+        self._make(material, id, normal=normal, position=position)
 
 
 class HalfPlane(_Primitive):
@@ -201,10 +223,7 @@ class HalfPlane(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        given = {"normal": normal, "position": position, "direction": direction}
-        vectors = self._vectors(**given)
-        shown = dict(zip(given, map(tuple, vectors)))
-        self._create("crt_half_plane_create", material, id, shown, *vectors)
+        self._make(material, id, normal=normal, position=position, direction=direction)
 
 
 class Cylinder(_Primitive):
@@ -223,10 +242,7 @@ class Cylinder(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        a, b = self._vectors(start=start, end=end)
-        size = self._positive(radius, "radius")
-        shown = {"start": tuple(a), "end": tuple(b), "radius": size}
-        self._create("crt_cylinder_create", material, id, shown, a, b, size)
+        self._make(material, id, start=start, end=end, radius=radius)
 
 
 class Cone(_Primitive):
@@ -247,11 +263,7 @@ class Cone(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        a, b = self._vectors(start=start, end=end)
-        size = self._positive(radius, "radius")
-        size2 = _arguments.number(radius2, "Cone: radius2", "0 or a positive number")
-        shown = {"start": tuple(a), "end": tuple(b), "radius": size, "radius2": size2}
-        self._create("crt_cone_create", material, id, shown, a, b, size, size2)
+        self._make(material, id, start=start, end=end, radius=radius, radius2=radius2)
 
 
 class Capsule(_Primitive):
@@ -270,10 +282,7 @@ class Capsule(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        a, b = self._vectors(start=start, end=end)
-        size = self._positive(radius, "radius")
-        shown = {"start": tuple(a), "end": tuple(b), "radius": size}
-        self._create("crt_capsule_create", material, id, shown, a, b, size)
+        self._make(material, id, start=start, end=end, radius=radius)
 
 
 def _contours(name: str, profile: Sequence[Any]) -> list[list[tuple[float, ...]]]:
@@ -419,12 +428,9 @@ class Quadric(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        vectors = self._vectors(squares=squares, products=products, linear=linear)
-        number = _arguments.number(constant, "Quadric: constant")
-        names = "squares", "products", "linear"
-        shown: dict[str, Any] = {key: tuple(v) for key, v in zip(names, vectors, strict=True)}
-        shown["constant"] = number
-        self._create("crt_quadric_create", material, id, shown, *vectors, number)
+        self._make(
+            material, id, squares=squares, products=products, linear=linear, constant=constant
+        )
 
 
 class Implicit(_Primitive):
@@ -498,10 +504,7 @@ class Superellipsoid(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        e = _arguments.number(east_west, "Superellipsoid: east_west")
-        n = _arguments.number(north_south, "Superellipsoid: north_south")
-        shown = {"east_west": e, "north_south": n}
-        self._create("crt_superellipsoid_create", material, id, shown, e, n)
+        self._make(material, id, east_west=east_west, north_south=north_south)
 
 
 class Torus(_Primitive):
@@ -523,11 +526,24 @@ class Torus(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        middle, across = self._vectors(center=center, axis=axis)
-        size = self._positive(radius, "radius")
-        tube = self._positive(thickness, "thickness")
-        shown = {"center": tuple(middle), "axis": tuple(across), "radius": size, "thickness": tube}
-        self._create("crt_torus_create", material, id, shown, middle, across, size, tube)
+        self._make(material, id, center=center, axis=axis, radius=radius, thickness=thickness)
+
+
+class Ellipsoid(_Primitive):
+    """An Ellipsoid is a ball about `center` that is scaled to `radii` along x, y and z."""
+
+    center = _Given[Vector]()
+    radii = _Given[Vector]()
+
+    def __init__(
+        self,
+        center: Point,
+        radii: Point,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        self._make(material, id, center=center, radii=radii)
 
 
 class Disc(_Primitive):
@@ -546,10 +562,7 @@ class Disc(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        middle, across = self._vectors(center=center, normal=normal)
-        size = self._positive(radius, "radius")
-        shown = {"center": tuple(middle), "normal": tuple(across), "radius": size}
-        self._create("crt_disc_create", material, id, shown, middle, across, size)
+        self._make(material, id, center=center, normal=normal, radius=radius)
 
 
 class Triangle(_Primitive):
@@ -568,6 +581,4 @@ class Triangle(_Primitive):
         material: Material | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        corners = self._vectors(a=a, b=b, c=c)
-        shown = dict(zip("abc", map(tuple, corners)))
-        self._create("crt_triangle_create", material, id, shown, *corners)
+        self._make(material, id, a=a, b=b, c=c)

@@ -4,11 +4,13 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "capi/structs.hpp"
 #include "crt/implicit_shapes.hpp"
-#include "crt/primitives.hpp"
+#include "crt/schema_primitives.hpp"
 #include "crt/source_code.hpp"
 
 namespace crt::capi {
@@ -52,6 +54,27 @@ std::shared_ptr<const HeightGrid> to_height_grid(const double* heights, std::uin
   return make_height_grid(std::move(copied), columns, rows);
 }
 
+void take(double& field, double argument, std::string_view) {
+  field = argument;
+}
+void take(Vec3& field, const double* argument, std::string_view name) {
+  field = to_vec3(argument, name.data());
+}
+
+/// Makes a primitive of its fields, in the order of its table in the schema.
+template <class Shape, class... Arguments>
+crt_status create_of(crt_entity** out, Arguments... arguments) {
+  return create(out, [&] {
+    Shape shape;
+    [&]<std::size_t... places>(std::index_sequence<places...>) {
+      const auto& rows = schema::table<Shape>.fields;
+      (take(shape.*std::get<places>(rows).member, arguments, std::get<places>(rows).name), ...);
+    }
+    (std::index_sequence_for<Arguments...>());
+    return shape;
+  });
+}
+
 }  // namespace
 
 }  // namespace crt::capi
@@ -59,80 +82,59 @@ std::shared_ptr<const HeightGrid> to_height_grid(const double* heights, std::uin
 using namespace crt::capi;
 
 crt_status crt_sphere_create(const double center[3], double radius, crt_entity** out) {
-  return create(out,
-                [&] { return crt::Sphere{.center = to_vec3(center, "center"), .radius = radius}; });
+  return create_of<crt::Sphere>(out, center, radius);
 }
 
 crt_status crt_box_create(const double corner_a[3], const double corner_b[3], crt_entity** out) {
-  return create(out, [&] {
-    return crt::Box{.corner_a = to_vec3(corner_a, "corner_a"),
-                    .corner_b = to_vec3(corner_b, "corner_b")};
-  });
+  return create_of<crt::Box>(out, corner_a, corner_b);
 }
 
 crt_status crt_plane_create(const double normal[3], const double position[3], crt_entity** out) {
-  return create(out, [&] {
-    return crt::Plane{.normal = to_vec3(normal, "normal"),
-                      .position = to_vec3(position, "position")};
-  });
+  return create_of<crt::Plane>(out, normal, position);
 }
 
 crt_status crt_half_plane_create(const double normal[3], const double position[3],
                                  const double direction[3], crt_entity** out) {
-  return create(out, [&] {
-    return crt::HalfPlane{.normal = to_vec3(normal, "normal"),
-                          .position = to_vec3(position, "position"),
-                          .direction = to_vec3(direction, "direction")};
-  });
+  return create_of<crt::HalfPlane>(out, normal, position, direction);
 }
 
 crt_status crt_cylinder_create(const double from[3], const double to[3], double radius,
                                crt_entity** out) {
-  return create(out, [&] {
-    return crt::Cylinder{.from = to_vec3(from, "from"), .to = to_vec3(to, "to"), .radius = radius};
-  });
+  return create_of<crt::Cylinder>(out, from, to, radius);
 }
 
 crt_status crt_cone_create(const double from[3], const double to[3], double radius, double radius2,
                            crt_entity** out) {
-  return create(out, [&] {
-    return crt::Cone{.from = to_vec3(from, "from"),
-                     .to = to_vec3(to, "to"),
-                     .radius = radius,
-                     .radius2 = radius2};
-  });
+  return create_of<crt::Cone>(out, from, to, radius, radius2);
 }
 
 crt_status crt_capsule_create(const double from[3], const double to[3], double radius,
                               crt_entity** out) {
-  return create(out, [&] {
-    return crt::Capsule{.from = to_vec3(from, "from"), .to = to_vec3(to, "to"), .radius = radius};
-  });
+  return create_of<crt::Capsule>(out, from, to, radius);
+}
+
+crt_status crt_ellipsoid_create(const double center[3], const double radii[3], crt_entity** out) {
+  return create_of<crt::Ellipsoid>(out, center, radii);
 }
 
 crt_status crt_torus_create(const double center[3], const double axis[3], double radius,
                             double thickness, crt_entity** out) {
-  return create(out, [&] {
-    return crt::Torus{.center = to_vec3(center, "center"),
-                      .axis = to_vec3(axis, "axis"),
-                      .radius = radius,
-                      .thickness = thickness};
-  });
+  return create_of<crt::Torus>(out, center, axis, radius, thickness);
 }
 
 crt_status crt_disc_create(const double center[3], const double normal[3], double radius,
                            crt_entity** out) {
-  return create(out, [&] {
-    return crt::Disc{
-        .center = to_vec3(center, "center"), .normal = to_vec3(normal, "normal"), .radius = radius};
-  });
+  return create_of<crt::Disc>(out, center, normal, radius);
 }
 
 crt_status crt_triangle_create(const double a[3], const double b[3], const double c[3],
                                crt_entity** out) {
-  return create(out, [&] {
-    return crt::Triangle{.a = to_vec3(a, "a"), .b = to_vec3(b, "b"), .c = to_vec3(c, "c")};
-  });
+  return create_of<crt::Triangle>(out, a, b, c);
+}
+
+crt_status crt_quadric_create(const double squares[3], const double products[3],
+                              const double linear[3], double constant, crt_entity** out) {
+  return create_of<crt::Quadric>(out, squares, products, linear, constant);
 }
 
 crt_status crt_height_field_create(const double* heights, uint32_t columns, uint32_t rows,
@@ -143,16 +145,6 @@ crt_status crt_height_field_create(const double* heights, uint32_t columns, uint
     return crt::HeightField{.heights = to_height_grid(heights, columns, rows),
                             .corner_a = to_vec3(corner_a, "corner_a"),
                             .corner_b = to_vec3(corner_b, "corner_b")};
-  });
-}
-
-crt_status crt_quadric_create(const double squares[3], const double products[3],
-                              const double linear[3], double constant, crt_entity** out) {
-  return create(out, [&] {
-    return crt::Quadric{.squares = to_vec3(squares, "squares"),
-                        .products = to_vec3(products, "products"),
-                        .linear = to_vec3(linear, "linear"),
-                        .constant = constant};
   });
 }
 

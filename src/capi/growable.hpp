@@ -8,15 +8,26 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 #include "capi/guard.hpp"
 
 namespace crt::capi {
 
-/// Lists where each field of a struct ends, in order. structs.cpp defines it for every growable
-/// struct.
+/// A CField is a field of a struct of crt.h.
+struct CField {
+  std::string_view name;
+  std::size_t offset;
+  std::size_t size;
+};
+
+constexpr CField c_field(std::string_view name, std::size_t offset, std::size_t size) {
+  return {name, offset, size};
+}
+
+/// Lists the fields of a struct in order. structs.cpp defines it for every growable struct.
 template <class Struct>
-std::span<const std::size_t> field_ends();
+std::span<const CField> c_fields();
 
 /// Holds the values that a struct has if its owner sets none.
 template <class Struct>
@@ -85,8 +96,8 @@ inline void require_struct_size(std::size_t size, const char* argument) {
 template <class Struct>
 std::size_t known_size(std::size_t size) {
   std::size_t known = size_field;
-  for (const std::size_t end : field_ends<Struct>()) {
-    if (end <= size) known = end;
+  for (const CField& field : c_fields<Struct>()) {
+    if (field.offset + field.size <= size) known = field.offset + field.size;
   }
   return known;
 }

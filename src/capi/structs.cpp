@@ -1,302 +1,307 @@
-// This file lists where the fields of the growable structs end, and has their crt_*_init functions.
+// This file lists the fields of the growable structs, and has their crt_*_init functions.
 #include "capi/structs.hpp"
 
 // A field missing here would be read and written with the next one; the test of the layout finds
 // it.
-#define CRT_END(Struct, field) (offsetof(Struct, field) + sizeof(decltype(Struct::field)))
+#define CRT_FIELD(Struct, field) \
+  c_field(#field, offsetof(Struct, field), sizeof(decltype(Struct::field)))
 
 namespace crt::capi {
 
 template <>
-std::span<const std::size_t> field_ends<crt_pattern>() {
+std::span<const CField> c_fields<crt_pattern>() {
   using S = crt_pattern;
-  static constexpr std::array ends = {
-      CRT_END(S, type),      CRT_END(S, color_a),   CRT_END(S, alpha_a),
-      CRT_END(S, color_b),   CRT_END(S, alpha_b),   CRT_END(S, direction),
-      CRT_END(S, offset),    CRT_END(S, scale),     CRT_END(S, turbulence),
-      CRT_END(S, octaves),   CRT_END(S, reserved),  CRT_END(S, image),
-      CRT_END(S, repeat_u),  CRT_END(S, repeat_v),  CRT_END(S, pattern_a),
-      CRT_END(S, pattern_b), CRT_END(S, colors),    CRT_END(S, color_count),
-      CRT_END(S, mapping),   CRT_END(S, reserved_2)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, type),      CRT_FIELD(S, color_a),   CRT_FIELD(S, alpha_a),
+      CRT_FIELD(S, color_b),   CRT_FIELD(S, alpha_b),   CRT_FIELD(S, direction),
+      CRT_FIELD(S, offset),    CRT_FIELD(S, scale),     CRT_FIELD(S, turbulence),
+      CRT_FIELD(S, octaves),   CRT_FIELD(S, reserved),  CRT_FIELD(S, image),
+      CRT_FIELD(S, repeat_u),  CRT_FIELD(S, repeat_v),  CRT_FIELD(S, pattern_a),
+      CRT_FIELD(S, pattern_b), CRT_FIELD(S, colors),    CRT_FIELD(S, color_count),
+      CRT_FIELD(S, mapping),   CRT_FIELD(S, reserved_2)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_material>() {
+std::span<const CField> c_fields<crt_material>() {
   using S = crt_material;
-  static constexpr std::array ends = {
-      CRT_END(S, reserved),         CRT_END(S, color),        CRT_END(S, alpha),
-      CRT_END(S, pattern),          CRT_END(S, reflectivity), CRT_END(S, transparency),
-      CRT_END(S, refractive_index), CRT_END(S, diffuse),      CRT_END(S, specular),
-      CRT_END(S, shininess),        CRT_END(S, absorption),   CRT_END(S, bump),
-      CRT_END(S, bump_height)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, reserved),         CRT_FIELD(S, color),        CRT_FIELD(S, alpha),
+      CRT_FIELD(S, pattern),          CRT_FIELD(S, reflectivity), CRT_FIELD(S, transparency),
+      CRT_FIELD(S, refractive_index), CRT_FIELD(S, diffuse),      CRT_FIELD(S, specular),
+      CRT_FIELD(S, shininess),        CRT_FIELD(S, absorption),   CRT_FIELD(S, bump),
+      CRT_FIELD(S, bump_height)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_mesh>() {
+std::span<const CField> c_fields<crt_mesh>() {
   using S = crt_mesh;
-  static constexpr std::array ends = {CRT_END(S, reserved),
-                                      CRT_END(S, positions),
-                                      CRT_END(S, vertex_count),
-                                      CRT_END(S, indices),
-                                      CRT_END(S, triangle_count),
-                                      CRT_END(S, normals),
-                                      CRT_END(S, normal_count),
-                                      CRT_END(S, normal_indices),
-                                      CRT_END(S, uv),
-                                      CRT_END(S, uv_count),
-                                      CRT_END(S, uv_indices),
-                                      CRT_END(S, materials),
-                                      CRT_END(S, material_count),
-                                      CRT_END(S, material_of_triangle),
-                                      CRT_END(S, smooth)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, reserved),
+                                        CRT_FIELD(S, positions),
+                                        CRT_FIELD(S, vertex_count),
+                                        CRT_FIELD(S, indices),
+                                        CRT_FIELD(S, triangle_count),
+                                        CRT_FIELD(S, normals),
+                                        CRT_FIELD(S, normal_count),
+                                        CRT_FIELD(S, normal_indices),
+                                        CRT_FIELD(S, uv),
+                                        CRT_FIELD(S, uv_count),
+                                        CRT_FIELD(S, uv_indices),
+                                        CRT_FIELD(S, materials),
+                                        CRT_FIELD(S, material_count),
+                                        CRT_FIELD(S, material_of_triangle),
+                                        CRT_FIELD(S, smooth)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_mesh_options>() {
+std::span<const CField> c_fields<crt_mesh_options>() {
   using S = crt_mesh_options;
-  static constexpr std::array ends = {CRT_END(S, fill), CRT_END(S, weld), CRT_END(S, stitch)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, fill), CRT_FIELD(S, weld),
+                                        CRT_FIELD(S, stitch)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_mesh_report>() {
+std::span<const CField> c_fields<crt_mesh_report>() {
   using S = crt_mesh_report;
-  static constexpr std::array ends = {CRT_END(S, fill),
-                                      CRT_END(S, welded_vertices),
-                                      CRT_END(S, welded_triangles),
-                                      CRT_END(S, stitched_vertices),
-                                      CRT_END(S, repeated_triangles),
-                                      CRT_END(S, first_repeated),
-                                      CRT_END(S, shells),
-                                      CRT_END(S, overlapping_shells),
-                                      CRT_END(S, first_overlap)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, fill),
+                                        CRT_FIELD(S, welded_vertices),
+                                        CRT_FIELD(S, welded_triangles),
+                                        CRT_FIELD(S, stitched_vertices),
+                                        CRT_FIELD(S, repeated_triangles),
+                                        CRT_FIELD(S, first_repeated),
+                                        CRT_FIELD(S, shells),
+                                        CRT_FIELD(S, overlapping_shells),
+                                        CRT_FIELD(S, first_overlap)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_custom>() {
+std::span<const CField> c_fields<crt_custom>() {
   using S = crt_custom;
-  static constexpr std::array ends = {
-      CRT_END(S, face_count), CRT_END(S, lower),   CRT_END(S, upper), CRT_END(S, crossings),
-      CRT_END(S, point),      CRT_END(S, release), CRT_END(S, user),  CRT_END(S, name)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, face_count), CRT_FIELD(S, lower),   CRT_FIELD(S, upper), CRT_FIELD(S, crossings),
+      CRT_FIELD(S, point),      CRT_FIELD(S, release), CRT_FIELD(S, user),  CRT_FIELD(S, name)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_light>() {
+std::span<const CField> c_fields<crt_light>() {
   using S = crt_light;
-  static constexpr std::array ends = {CRT_END(S, type),   CRT_END(S, origin),  CRT_END(S, pointing),
-                                      CRT_END(S, color),  CRT_END(S, angle),   CRT_END(S, penumbra),
-                                      CRT_END(S, radius), CRT_END(S, falloff), CRT_END(S, ambient)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, type),   CRT_FIELD(S, origin),  CRT_FIELD(S, pointing),
+      CRT_FIELD(S, color),  CRT_FIELD(S, angle),   CRT_FIELD(S, penumbra),
+      CRT_FIELD(S, radius), CRT_FIELD(S, falloff), CRT_FIELD(S, ambient)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_camera>() {
+std::span<const CField> c_fields<crt_camera>() {
   using S = crt_camera;
-  static constexpr std::array ends = {CRT_END(S, projection),     CRT_END(S, position),
-                                      CRT_END(S, pointing),       CRT_END(S, fov),
-                                      CRT_END(S, roll),           CRT_END(S, aperture),
-                                      CRT_END(S, focal_distance), CRT_END(S, aperture_shape),
-                                      CRT_END(S, reserved),       CRT_END(S, lens_radius)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, projection),     CRT_FIELD(S, position),
+                                        CRT_FIELD(S, pointing),       CRT_FIELD(S, fov),
+                                        CRT_FIELD(S, roll),           CRT_FIELD(S, aperture),
+                                        CRT_FIELD(S, focal_distance), CRT_FIELD(S, aperture_shape),
+                                        CRT_FIELD(S, reserved),       CRT_FIELD(S, lens_radius)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_background>() {
+std::span<const CField> c_fields<crt_background>() {
   using S = crt_background;
-  static constexpr std::array ends = {
-      CRT_END(S, type),      CRT_END(S, color),         CRT_END(S, alpha),
-      CRT_END(S, horizon),   CRT_END(S, horizon_alpha), CRT_END(S, sky),
-      CRT_END(S, sky_alpha), CRT_END(S, image),         CRT_END(S, angle)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, type),      CRT_FIELD(S, color),         CRT_FIELD(S, alpha),
+      CRT_FIELD(S, horizon),   CRT_FIELD(S, horizon_alpha), CRT_FIELD(S, sky),
+      CRT_FIELD(S, sky_alpha), CRT_FIELD(S, image),         CRT_FIELD(S, angle)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_settings>() {
+std::span<const CField> c_fields<crt_settings>() {
   using S = crt_settings;
-  static constexpr std::array ends = {
-      CRT_END(S, width),        CRT_END(S, height),          CRT_END(S, supersampling),
-      CRT_END(S, dof_samples),  CRT_END(S, recursion_depth), CRT_END(S, gamma),
-      CRT_END(S, min_weight),   CRT_END(S, falloff_model),   CRT_END(S, show_clip),
-      CRT_END(S, seed),         CRT_END(S, title),           CRT_END(S, author),
-      CRT_END(S, date),         CRT_END(S, notes),           CRT_END(S, precision),
-      CRT_END(S, reserved),     CRT_END(S, target_error),    CRT_END(S, time_budget),
-      CRT_END(S, filter_width), CRT_END(S, min_samples),     CRT_END(S, max_samples),
-      CRT_END(S, filter),       CRT_END(S, reserved_2),      CRT_END(S, compat),
-      CRT_END(S, reserved_3),   CRT_END(S, ambient_model),   CRT_END(S, no_head_light)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, width),        CRT_FIELD(S, height),          CRT_FIELD(S, supersampling),
+      CRT_FIELD(S, dof_samples),  CRT_FIELD(S, recursion_depth), CRT_FIELD(S, gamma),
+      CRT_FIELD(S, min_weight),   CRT_FIELD(S, falloff_model),   CRT_FIELD(S, show_clip),
+      CRT_FIELD(S, seed),         CRT_FIELD(S, title),           CRT_FIELD(S, author),
+      CRT_FIELD(S, date),         CRT_FIELD(S, notes),           CRT_FIELD(S, precision),
+      CRT_FIELD(S, reserved),     CRT_FIELD(S, target_error),    CRT_FIELD(S, time_budget),
+      CRT_FIELD(S, filter_width), CRT_FIELD(S, min_samples),     CRT_FIELD(S, max_samples),
+      CRT_FIELD(S, filter),       CRT_FIELD(S, reserved_2),      CRT_FIELD(S, compat),
+      CRT_FIELD(S, reserved_3),   CRT_FIELD(S, ambient_model),   CRT_FIELD(S, no_head_light)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_script_options>() {
+std::span<const CField> c_fields<crt_script_options>() {
   using S = crt_script_options;
-  static constexpr std::array ends = {CRT_END(S, allow_outside_files),
-                                      CRT_END(S, resource_directories),
-                                      CRT_END(S, resource_directory_count),
-                                      CRT_END(S, t),
-                                      CRT_END(S, variable_names),
-                                      CRT_END(S, variable_values),
-                                      CRT_END(S, variable_count),
-                                      CRT_END(S, setting_names),
-                                      CRT_END(S, setting_values),
-                                      CRT_END(S, setting_count),
-                                      CRT_END(S, max_steps),
-                                      CRT_END(S, max_entities),
-                                      CRT_END(S, max_call_depth),
-                                      CRT_END(S, max_list_length),
-                                      CRT_END(S, max_string_bytes),
-                                      CRT_END(S, max_memory_bytes),
-                                      CRT_END(S, max_source_bytes),
-                                      CRT_END(S, max_errors),
-                                      CRT_END(S, open_file),
-                                      CRT_END(S, open_file_user),
-                                      CRT_END(S, print),
-                                      CRT_END(S, print_user),
-                                      CRT_END(S, poll),
-                                      CRT_END(S, poll_user),
-                                      CRT_END(S, compat),
-                                      CRT_END(S, reserved),
-                                      CRT_END(S, max_image_pixels)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, allow_outside_files),
+                                        CRT_FIELD(S, resource_directories),
+                                        CRT_FIELD(S, resource_directory_count),
+                                        CRT_FIELD(S, t),
+                                        CRT_FIELD(S, variable_names),
+                                        CRT_FIELD(S, variable_values),
+                                        CRT_FIELD(S, variable_count),
+                                        CRT_FIELD(S, setting_names),
+                                        CRT_FIELD(S, setting_values),
+                                        CRT_FIELD(S, setting_count),
+                                        CRT_FIELD(S, max_steps),
+                                        CRT_FIELD(S, max_entities),
+                                        CRT_FIELD(S, max_call_depth),
+                                        CRT_FIELD(S, max_list_length),
+                                        CRT_FIELD(S, max_string_bytes),
+                                        CRT_FIELD(S, max_memory_bytes),
+                                        CRT_FIELD(S, max_source_bytes),
+                                        CRT_FIELD(S, max_errors),
+                                        CRT_FIELD(S, open_file),
+                                        CRT_FIELD(S, open_file_user),
+                                        CRT_FIELD(S, print),
+                                        CRT_FIELD(S, print_user),
+                                        CRT_FIELD(S, poll),
+                                        CRT_FIELD(S, poll_user),
+                                        CRT_FIELD(S, compat),
+                                        CRT_FIELD(S, reserved),
+                                        CRT_FIELD(S, max_image_pixels)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_diagnostic>() {
+std::span<const CField> c_fields<crt_diagnostic>() {
   using S = crt_diagnostic;
-  static constexpr std::array ends = {
-      CRT_END(S, severity), CRT_END(S, status),      CRT_END(S, line),
-      CRT_END(S, column),   CRT_END(S, length),      CRT_END(S, message),
-      CRT_END(S, file),     CRT_END(S, source_line), CRT_END(S, call_count)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, severity), CRT_FIELD(S, status),      CRT_FIELD(S, line),
+      CRT_FIELD(S, column),   CRT_FIELD(S, length),      CRT_FIELD(S, message),
+      CRT_FIELD(S, file),     CRT_FIELD(S, source_line), CRT_FIELD(S, call_count)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_diagnostic_call>() {
+std::span<const CField> c_fields<crt_diagnostic_call>() {
   using S = crt_diagnostic_call;
-  static constexpr std::array ends = {CRT_END(S, line), CRT_END(S, column), CRT_END(S, reserved),
-                                      CRT_END(S, name), CRT_END(S, file)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, line), CRT_FIELD(S, column),
+                                        CRT_FIELD(S, reserved), CRT_FIELD(S, name),
+                                        CRT_FIELD(S, file)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_render_options>() {
+std::span<const CField> c_fields<crt_render_options>() {
   using S = crt_render_options;
-  static constexpr std::array ends = {
-      CRT_END(S, threads),      CRT_END(S, region_x),      CRT_END(S, region_y),
-      CRT_END(S, region_width), CRT_END(S, region_height), CRT_END(S, seed),
-      CRT_END(S, progress),     CRT_END(S, progress_user), CRT_END(S, log),
-      CRT_END(S, log_user),     CRT_END(S, passes),        CRT_END(S, aovs),
-      CRT_END(S, checkpoint),   CRT_END(S, max_ray_steps)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, threads),      CRT_FIELD(S, region_x),      CRT_FIELD(S, region_y),
+      CRT_FIELD(S, region_width), CRT_FIELD(S, region_height), CRT_FIELD(S, seed),
+      CRT_FIELD(S, progress),     CRT_FIELD(S, progress_user), CRT_FIELD(S, log),
+      CRT_FIELD(S, log_user),     CRT_FIELD(S, passes),        CRT_FIELD(S, aovs),
+      CRT_FIELD(S, checkpoint),   CRT_FIELD(S, max_ray_steps)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_prepare_options>() {
+std::span<const CField> c_fields<crt_prepare_options>() {
   using S = crt_prepare_options;
-  static constexpr std::array ends = {CRT_END(S, reserved), CRT_END(S, poll), CRT_END(S, poll_user),
-                                      CRT_END(S, max_primitives)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, reserved), CRT_FIELD(S, poll),
+                                        CRT_FIELD(S, poll_user), CRT_FIELD(S, max_primitives)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_render_stats>() {
+std::span<const CField> c_fields<crt_render_stats>() {
   using S = crt_render_stats;
-  static constexpr std::array ends = {CRT_END(S, threads),
-                                      CRT_END(S, pixels),
-                                      CRT_END(S, camera_rays),
-                                      CRT_END(S, shadow_rays),
-                                      CRT_END(S, reflection_rays),
-                                      CRT_END(S, refraction_rays),
-                                      CRT_END(S, rays_below_min_weight),
-                                      CRT_END(S, rays_beyond_depth),
-                                      CRT_END(S, samples_over_ray_bound),
-                                      CRT_END(S, intersection_tests),
-                                      CRT_END(S, interval_events),
-                                      CRT_END(S, media_lookups),
-                                      CRT_END(S, media_changes),
-                                      CRT_END(S, pattern_lookups),
-                                      CRT_END(S, lens_samples),
-                                      CRT_END(S, prepare_seconds),
-                                      CRT_END(S, trace_seconds),
-                                      CRT_END(S, escalations),
-                                      CRT_END(S, primitive_bytes),
-                                      CRT_END(S, csg_bytes),
-                                      CRT_END(S, tree_bytes),
-                                      CRT_END(S, material_bytes),
-                                      CRT_END(S, samples_min),
-                                      CRT_END(S, samples_mean),
-                                      CRT_END(S, samples_max),
-                                      CRT_END(S, passes),
-                                      CRT_END(S, reserved),
-                                      CRT_END(S, half_width_rms),
-                                      CRT_END(S, half_width_95),
-                                      CRT_END(S, half_width_max),
-                                      CRT_END(S, pixels_unresolved),
-                                      CRT_END(S, unseen_share),
-                                      CRT_END(S, cutoff_mean),
-                                      CRT_END(S, cutoff_max),
-                                      CRT_END(S, undecided)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, threads),
+                                        CRT_FIELD(S, pixels),
+                                        CRT_FIELD(S, camera_rays),
+                                        CRT_FIELD(S, shadow_rays),
+                                        CRT_FIELD(S, reflection_rays),
+                                        CRT_FIELD(S, refraction_rays),
+                                        CRT_FIELD(S, rays_below_min_weight),
+                                        CRT_FIELD(S, rays_beyond_depth),
+                                        CRT_FIELD(S, samples_over_ray_bound),
+                                        CRT_FIELD(S, intersection_tests),
+                                        CRT_FIELD(S, interval_events),
+                                        CRT_FIELD(S, media_lookups),
+                                        CRT_FIELD(S, media_changes),
+                                        CRT_FIELD(S, pattern_lookups),
+                                        CRT_FIELD(S, lens_samples),
+                                        CRT_FIELD(S, prepare_seconds),
+                                        CRT_FIELD(S, trace_seconds),
+                                        CRT_FIELD(S, escalations),
+                                        CRT_FIELD(S, primitive_bytes),
+                                        CRT_FIELD(S, csg_bytes),
+                                        CRT_FIELD(S, tree_bytes),
+                                        CRT_FIELD(S, material_bytes),
+                                        CRT_FIELD(S, samples_min),
+                                        CRT_FIELD(S, samples_mean),
+                                        CRT_FIELD(S, samples_max),
+                                        CRT_FIELD(S, passes),
+                                        CRT_FIELD(S, reserved),
+                                        CRT_FIELD(S, half_width_rms),
+                                        CRT_FIELD(S, half_width_95),
+                                        CRT_FIELD(S, half_width_max),
+                                        CRT_FIELD(S, pixels_unresolved),
+                                        CRT_FIELD(S, unseen_share),
+                                        CRT_FIELD(S, cutoff_mean),
+                                        CRT_FIELD(S, cutoff_max),
+                                        CRT_FIELD(S, undecided)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_write_options>() {
-  static constexpr std::array ends = {CRT_END(crt_write_options, reproducible),
-                                      CRT_END(crt_write_options, colors_only)};
-  return ends;
+std::span<const CField> c_fields<crt_write_options>() {
+  static constexpr std::array fields = {CRT_FIELD(crt_write_options, reproducible),
+                                        CRT_FIELD(crt_write_options, colors_only)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_farm_options>() {
+std::span<const CField> c_fields<crt_farm_options>() {
   using S = crt_farm_options;
-  static constexpr std::array ends = {
-      CRT_END(S, has_frames), CRT_END(S, first_frame),   CRT_END(S, last_frame),
-      CRT_END(S, tasks),      CRT_END(S, tile_width),    CRT_END(S, tile_height),
-      CRT_END(S, reserved),   CRT_END(S, least_seconds), CRT_END(S, script),
-      CRT_END(S, render),     CRT_END(S, max_primitives)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, has_frames), CRT_FIELD(S, first_frame),   CRT_FIELD(S, last_frame),
+      CRT_FIELD(S, tasks),      CRT_FIELD(S, tile_width),    CRT_FIELD(S, tile_height),
+      CRT_FIELD(S, reserved),   CRT_FIELD(S, least_seconds), CRT_FIELD(S, script),
+      CRT_FIELD(S, render),     CRT_FIELD(S, max_primitives)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_farm_job>() {
+std::span<const CField> c_fields<crt_farm_job>() {
   using S = crt_farm_job;
-  static constexpr std::array ends = {
-      CRT_END(S, tasks),      CRT_END(S, has_frames),     CRT_END(S, first_frame),
-      CRT_END(S, last_frame), CRT_END(S, width),          CRT_END(S, height),
-      CRT_END(S, passes),     CRT_END(S, has_channels),   CRT_END(S, reserved),
-      CRT_END(S, seconds),    CRT_END(S, longest_seconds)};
-  return ends;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, tasks),      CRT_FIELD(S, has_frames),     CRT_FIELD(S, first_frame),
+      CRT_FIELD(S, last_frame), CRT_FIELD(S, width),          CRT_FIELD(S, height),
+      CRT_FIELD(S, passes),     CRT_FIELD(S, has_channels),   CRT_FIELD(S, reserved),
+      CRT_FIELD(S, seconds),    CRT_FIELD(S, longest_seconds)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_farm_work_options>() {
+std::span<const CField> c_fields<crt_farm_work_options>() {
   using S = crt_farm_work_options;
-  static constexpr std::array ends = {CRT_END(S, threads), CRT_END(S, progress),
-                                      CRT_END(S, progress_user)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, threads), CRT_FIELD(S, progress),
+                                        CRT_FIELD(S, progress_user)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_farm_merge_options>() {
+std::span<const CField> c_fields<crt_farm_merge_options>() {
   using S = crt_farm_merge_options;
-  static constexpr std::array ends = {
-      CRT_END(S, reserved), CRT_END(S, output),      CRT_END(S, skip), CRT_END(S, skip_count),
-      CRT_END(S, report),   CRT_END(S, report_user), CRT_END(S, poll), CRT_END(S, poll_user)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, reserved), CRT_FIELD(S, output),
+                                        CRT_FIELD(S, skip),     CRT_FIELD(S, skip_count),
+                                        CRT_FIELD(S, report),   CRT_FIELD(S, report_user),
+                                        CRT_FIELD(S, poll),     CRT_FIELD(S, poll_user)};
+  return fields;
 }
 
 template <>
-std::span<const std::size_t> field_ends<crt_farm_progress>() {
+std::span<const CField> c_fields<crt_farm_progress>() {
   using S = crt_farm_progress;
-  static constexpr std::array ends = {CRT_END(S, waiting),       CRT_END(S, running),
-                                      CRT_END(S, lost),          CRT_END(S, done),
-                                      CRT_END(S, reserved),      CRT_END(S, share),
-                                      CRT_END(S, seconds_spent), CRT_END(S, seconds_left)};
-  return ends;
+  static constexpr std::array fields = {CRT_FIELD(S, waiting),       CRT_FIELD(S, running),
+                                        CRT_FIELD(S, lost),          CRT_FIELD(S, done),
+                                        CRT_FIELD(S, reserved),      CRT_FIELD(S, share),
+                                        CRT_FIELD(S, seconds_spent), CRT_FIELD(S, seconds_left)};
+  return fields;
 }
 
 // The defaults of these structs are all 0.

@@ -30,7 +30,7 @@ void add_setting_rows(std::vector<OptionRow>& rows, ScriptOptions& script) {
     if (setting.kind == SettingKind::integer) type = "N";
     rows.push_back({.names = fmt::format("--{}", setting.name),
                     .type = type,
-                    .help = setting.help,
+                    .help = std::string(setting.help),
                     .take =
                         [&script, &setting](const std::string& value) {
                           script.settings.emplace_back(setting.name,

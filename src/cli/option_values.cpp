@@ -2,10 +2,14 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <crt/schema_settings.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 namespace crt::cli {
 
@@ -44,35 +48,27 @@ std::string script_string(std::string_view text) {
   return quoted + '"';
 }
 
-constexpr SettingOption all_settings[] = {
-    {"width", SettingKind::integer, "pixels across"},
-    {"height", SettingKind::integer, "pixels down"},
-    {"gamma", SettingKind::number, "8-bit files store value^(1/gamma)"},
-    {"supersampling", SettingKind::integer, "n x n rays for each pixel"},
-    {"dofsamples", SettingKind::integer, "points of the lens for each of them"},
-    {"targeterror", SettingKind::number,
-     "samples until pixels are this near the truth; 0.004 is an 8-bit step"},
-    {"timebudget", SettingKind::number, "samples for so many seconds of tracing"},
-    {"minsamples", SettingKind::integer, "of a pixel, with one of these two: a power of 2"},
-    {"maxsamples", SettingKind::integer, "likewise"},
-    {"filter", SettingKind::text, "what a pixel is the mean of: box or blackmanharris"},
-    {"filterwidth", SettingKind::number, "pixels across, of filters other than the box"},
-    {"recursiondepth", SettingKind::integer, "bounces followed after the camera's ray"},
-    {"minweight", SettingKind::number, "rays that add less than this share are not followed"},
-    {"falloffmodel", SettingKind::text, "distance that dims a light: path or light"},
-    {"ambientmodel", SettingKind::text, "light, or surface: ambient light takes its colour"},
-    {"headlight", SettingKind::flag,
-     "lights scenes without lights from the camera; --headlight=false does not"},
-    {"showclip", SettingKind::flag,
-     "marks pixels brighter than white in red; --showclip=false does not"},
-    {"seed", SettingKind::integer, "another seed, another noise"},
-    {"precision", SettingKind::text, "standard, or exact: whether a line hits is always right"},
-    {"projection", SettingKind::text, "pinhole, spherical, cylindrical or orthographic"},
-    {"title", SettingKind::text, "of the picture, kept in its file"},
-    {"author", SettingKind::text, "likewise"},
-    {"date", SettingKind::text, "likewise"},
-    {"notes", SettingKind::text, "likewise"},
-};
+template <class Value>
+constexpr SettingKind kind_of = std::is_same_v<Value, bool>       ? SettingKind::flag
+                                : std::is_integral_v<Value>       ? SettingKind::integer
+                                : std::is_floating_point_v<Value> ? SettingKind::number
+                                                                  : SettingKind::text;
+
+/// Lists what the schema has of settings. Texts of a picture come last.
+std::vector<SettingOption> make_setting_options() {
+  std::vector<SettingOption> options;
+  std::vector<SettingOption> texts;
+  schema::for_each_field<Settings>([&]<class Row>(const Row& row) {
+    using Value = typename Row::Value;
+    if (row.uses.option.empty()) return;
+    auto& list = std::is_same_v<Value, std::string> ? texts : options;
+    list.push_back({row.script_name(), kind_of<Value>, row.uses.option});
+  });
+  options.push_back(
+      {"projection", SettingKind::text, "pinhole, spherical, cylindrical or orthographic"});
+  options.insert(options.end(), texts.begin(), texts.end());
+  return options;
+}
 
 struct AovName {
   std::string_view name;
@@ -95,7 +91,8 @@ bool parse_finite(std::string_view text, double& value) {
 }
 
 std::span<const SettingOption> setting_options() {
-  return all_settings;
+  static const std::vector<SettingOption> options = make_setting_options();
+  return options;
 }
 
 std::string setting_expression(const SettingOption& setting, const std::string& value) {

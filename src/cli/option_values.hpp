@@ -32,9 +32,9 @@ bool parse_finite(std::string_view text, double& value);
 enum class SettingKind { integer, number, text, flag };
 
 struct SettingOption {
-  const char* name;
+  std::string_view name;
   SettingKind kind;
-  const char* help;
+  std::string_view help;
 };
 
 /// Lists the settings of a script, by their names there.

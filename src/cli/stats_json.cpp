@@ -1,7 +1,10 @@
 #include "cli/stats_json.hpp"
 
+#include <crt/schema_scene.hpp>
+#include <crt/schema_settings.hpp>
 #include <crt/version.hpp>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 namespace crt::cli {
 
@@ -9,46 +12,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* name_of(Projection projection) {
-  switch (projection) {
-    case Projection::pinhole:
-      return "pinhole";
-    case Projection::spherical:
-      return "spherical";
-    case Projection::cylindrical:
-      return "cylindrical";
-    case Projection::orthographic:
-      return "orthographic";
-  }
-  return "";
-}
-
 Json settings_json(const Settings& settings, Projection projection) {
-  return {{"title", settings.title},
-          {"author", settings.author},
-          {"date", settings.date},
-          {"notes", settings.notes},
-          {"width", settings.width},
-          {"height", settings.height},
-          {"gamma", settings.gamma},
-          {"supersampling", settings.supersampling},
-          {"dofsamples", settings.dof_samples},
-          {"targeterror", settings.target_error},
-          {"timebudget", settings.time_budget},
-          {"minsamples", settings.min_samples},
-          {"maxsamples", settings.max_samples},
-          {"filter", settings.filter == PixelFilter::box ? "box" : "blackmanharris"},
-          {"filterwidth", settings.filter_width},
-          {"recursiondepth", settings.recursion_depth},
-          {"minweight", settings.min_weight},
-          {"falloffmodel", settings.falloff_model == FalloffModel::path ? "path" : "light"},
-          {"ambientmodel", settings.ambient_model == AmbientModel::light ? "light" : "surface"},
-          {"headlight", settings.head_light},
-          {"showclip", settings.show_clip},
-          {"seed", settings.seed},
-          {"precision", settings.precision == Precision::exact ? "exact" : "standard"},
-          {"compat", settings.compat},
-          {"projection", name_of(projection)}};
+  Json object;
+  schema::for_each_field<Settings>([&](const auto& row) {
+    const auto& value = settings.*row.member;
+    using Value = std::remove_cvref_t<decltype(value)>;
+    Json& member = object[std::string(row.script_name())];
+    if constexpr (std::is_enum_v<Value>) {
+      member = schema::script_name_of(value);
+    } else {
+      member = value;
+    }
+  });
+  object["projection"] = schema::script_name_of(projection);
+  return object;
 }
 
 Json report_json(const PictureReport& report) {

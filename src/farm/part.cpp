@@ -8,6 +8,7 @@
 
 #include "core/base/state_file.hpp"
 #include "core/base/whole_file.hpp"
+#include "crt/schema_settings.hpp"
 #include "crt/validate.hpp"
 #include "text/format.hpp"
 
@@ -27,31 +28,8 @@ constexpr std::array kept_numbers = {&RenderStats::samples_mean, &RenderStats::u
 
 /// Calls visit(field) for all settings, whether they are read or written.
 template <class SomeSettings, class Visit>
-void for_each_field(SomeSettings& settings, const Visit& visit) {
-  visit(settings.title);
-  visit(settings.author);
-  visit(settings.date);
-  visit(settings.notes);
-  visit(settings.width);
-  visit(settings.height);
-  visit(settings.gamma);
-  visit(settings.supersampling);
-  visit(settings.dof_samples);
-  visit(settings.target_error);
-  visit(settings.time_budget);
-  visit(settings.min_samples);
-  visit(settings.max_samples);
-  visit(settings.filter);
-  visit(settings.filter_width);
-  visit(settings.recursion_depth);
-  visit(settings.min_weight);
-  visit(settings.falloff_model);
-  visit(settings.ambient_model);
-  visit(settings.head_light);
-  visit(settings.show_clip);
-  visit(settings.seed);
-  visit(settings.precision);
-  visit(settings.compat);
+void for_each_setting(SomeSettings& settings, const Visit& visit) {
+  schema::for_each_field<Settings>([&](const auto& row) { visit(settings.*row.member); });
 }
 
 struct FieldWriter {
@@ -87,10 +65,13 @@ struct FieldReader {
   void operator()(Field& field) const {
     if constexpr (std::is_same_v<Field, std::string>) {
       field = text(longest_text);
-    } else if constexpr (std::is_enum_v<Field> || std::is_same_v<Field, bool>) {
+    } else if constexpr (std::is_same_v<Field, bool>) {
       const auto number = in.get<std::uint8_t>();
-      if (number > 1) in.fail();  // each of these has two values
-      field = static_cast<Field>(number);
+      if (number > 1) in.fail();
+      field = number == 1;
+    } else if constexpr (std::is_enum_v<Field>) {
+      field = static_cast<Field>(in.get<std::uint8_t>());
+      if (!schema::is_choice(field)) in.fail();
     } else {
       field = in.get<Field>();
     }
@@ -101,7 +82,7 @@ void write_piece(const RenderedPiece& rendered, core::StateWriter& out) {
   const Image& image = rendered.image;
   const auto& [frame, region] = rendered.piece;
   for (const int number : {frame, region.x, region.y, region.width, region.height}) out.put(number);
-  for_each_field(image.settings(), FieldWriter{out});
+  for_each_setting(image.settings(), FieldWriter{out});
   for (const auto count : summed_counts) out.put(image.stats().*count);
   for (const auto count : bounding_counts) out.put(image.stats().*count);
   for (const auto number : kept_numbers) out.put(image.stats().*number);
@@ -149,7 +130,7 @@ RenderedPiece read_piece(const Manifest& manifest, const Piece& expected, core::
     if (in.get<int>() != number) in.fail();
   }
   Settings settings;
-  for_each_field(settings, FieldReader{in});
+  for_each_setting(settings, FieldReader{in});
   validate(settings);
   if (settings.width != manifest.width || settings.height != manifest.height) in.fail();
   RenderStats stats;

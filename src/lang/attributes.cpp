@@ -39,26 +39,6 @@ const Wanted& get(const Given& given) {
   return *value;
 }
 
-/// Reads one of some words, in small letters or large ones.
-template <class Enum, std::size_t count>
-void choose(const Given& given, const std::array<std::pair<std::string_view, Enum>, count>& choices,
-            Enum& field) {
-  const std::string text = text::in_small_letters(get<String>(given)->text);
-  std::vector<std::string_view> names;
-  std::vector<std::string> quoted;
-  for (const auto& [name, value] : choices) {
-    if (name == text) {
-      field = value;
-      return;
-    }
-    names.push_back(name);
-    quoted.push_back(text::format("\"{}\"", name));
-  }
-  const std::string_view meant = nearest(text, names);
-  const std::string suggestion = meant.empty() ? "" : text::format("; did you mean \"{}\"?", meant);
-  reject(given, text::format("must be {}{}", enumerate(quoted), suggestion));
-}
-
 /// The memory of a stop of a pattern is paid for by so many steps, whenever the pattern is copied.
 constexpr std::size_t steps_per_stop = 4;
 
@@ -147,15 +127,21 @@ Contour contour_of(const Given& given, Context& context, const std::vector<Value
   return contour;
 }
 
-/// An optional field takes what the field itself takes.
-template <class Field>
-void convert_optional(const Given& given, Context& context, std::optional<Field>& field) {
-  Field value{};
-  convert(given, context, value);
-  field = std::move(value);
-}
-
 }  // namespace
+
+std::size_t choose(const Given& given, std::span<const schema::Name> words) {
+  const std::string text = text::in_small_letters(get<String>(given)->text);
+  std::vector<std::string_view> names;
+  std::vector<std::string> quoted;
+  for (const schema::Name& word : words) {
+    if (word.text() == text) return names.size();
+    names.push_back(word.text());
+    quoted.push_back(text::format("\"{}\"", word.text()));
+  }
+  const std::string_view meant = nearest(text, names);
+  const std::string suggestion = meant.empty() ? "" : text::format("; did you mean \"{}\"?", meant);
+  reject(given, text::format("must be {}{}", enumerate(quoted), suggestion));
+}
 
 void convert(const Given& given, Context&, double& field) {
   double storage = 0;
@@ -229,19 +215,14 @@ void convert(const Given& given, Context& context, std::vector<ColorStop>& field
   context.spend(given.value_span, steps_per_stop * field.size());
 }
 
-void convert(const Given& given, Context&, ImageMapping& field) {
-  using enum ImageMapping;
-  using Choice = std::pair<std::string_view, ImageMapping>;
-  choose(given,
-         std::array{Choice{"uv", uv}, Choice{"planar", planar}, Choice{"cylindrical", cylindrical},
-                    Choice{"cubic", cubic}},
-         field);
+void convert(const Given& given, Context&, FillRule& field) {
+  constexpr std::array<schema::Name, 2> words = {"evenodd", "nonzero"};
+  field = choose(given, words) == 0 ? FillRule::even_odd : FillRule::nonzero;
 }
 
-void convert(const Given& given, Context&, FillRule& field) {
-  using enum FillRule;
-  using Choice = std::pair<std::string_view, FillRule>;
-  choose(given, std::array{Choice{"evenodd", even_odd}, Choice{"nonzero", nonzero}}, field);
+void convert(const Given& given, Context&, TextAlignment& field) {
+  constexpr std::array<schema::Name, 3> words = {"left", "center", "right"};
+  field = static_cast<TextAlignment>(choose(given, words));
 }
 
 void convert(const Given& given, Context&, SharedMaterial& field) {
@@ -281,13 +262,6 @@ void convert(const Given& given, Context& context, std::shared_ptr<const Font>& 
   FileName file;
   convert(given, context, file);
   field = context.files.font(file.name, file.directory, file.span);
-}
-
-void convert(const Given& given, Context&, TextAlignment& field) {
-  using enum TextAlignment;
-  using Choice = std::pair<std::string_view, TextAlignment>;
-  choose(given, std::array{Choice{"left", left}, Choice{"center", center}, Choice{"right", right}},
-         field);
 }
 
 void convert(const Given& given, Context& context, HeightImage& field) {
@@ -338,59 +312,6 @@ void convert(const Given& given, Context&, Field& field) {
   field = *value;
 }
 
-void convert(const Given& given, Context&, Projection& field) {
-  using enum Projection;
-  using Choice = std::pair<std::string_view, Projection>;
-  choose(given,
-         std::array{Choice{"pinhole", pinhole}, Choice{"spherical", spherical},
-                    Choice{"cylindrical", cylindrical}, Choice{"orthographic", orthographic}},
-         field);
-}
-
-void convert(const Given& given, Context&, PanoramaProjection& field) {
-  using enum PanoramaProjection;
-  using Choice = std::pair<std::string_view, PanoramaProjection>;
-  choose(given,
-         std::array{Choice{"spherical", spherical}, Choice{"cylindrical", cylindrical},
-                    Choice{"equalarea", equal_area}},
-         field);
-}
-
-void convert(const Given& given, Context&, ApertureShape& field) {
-  using enum ApertureShape;
-  using Choice = std::pair<std::string_view, ApertureShape>;
-  choose(given,
-         std::array{Choice{"circle", circle}, Choice{"uniform", uniform},
-                    Choice{"gaussian", gaussian}, Choice{"triangle", triangle},
-                    Choice{"square", square}, Choice{"pentagon", pentagon},
-                    Choice{"hexagon", hexagon}, Choice{"octagon", octagon}, Choice{"line", line}},
-         field);
-}
-
-void convert(const Given& given, Context&, FalloffModel& field) {
-  using enum FalloffModel;
-  using Choice = std::pair<std::string_view, FalloffModel>;
-  choose(given, std::array{Choice{"path", path}, Choice{"light", light}}, field);
-}
-
-void convert(const Given& given, Context&, AmbientModel& field) {
-  using enum AmbientModel;
-  using Choice = std::pair<std::string_view, AmbientModel>;
-  choose(given, std::array{Choice{"light", light}, Choice{"surface", surface}}, field);
-}
-
-void convert(const Given& given, Context&, Precision& field) {
-  using enum Precision;
-  using Choice = std::pair<std::string_view, Precision>;
-  choose(given, std::array{Choice{"standard", standard}, Choice{"exact", exact}}, field);
-}
-
-void convert(const Given& given, Context&, PixelFilter& field) {
-  using enum PixelFilter;
-  using Choice = std::pair<std::string_view, PixelFilter>;
-  choose(given, std::array{Choice{"box", box}, Choice{"blackmanharris", blackman_harris}}, field);
-}
-
 void convert(const Given& given, Context&, Camera& field) {
   field = *get<std::shared_ptr<const Camera>>(given);
 }
@@ -410,40 +331,8 @@ void convert(const Given& given, Context&, Background& field) {
   field = *get<std::shared_ptr<const Background>>(given);
 }
 
-void convert(const Given& given, Context& context, std::optional<double>& field) {
-  convert_optional(given, context, field);
-}
-
-void convert(const Given& given, Context& context, std::optional<FillRule>& field) {
-  convert_optional(given, context, field);
-}
-
-void convert(const Given& given, Context& context, std::optional<Color>& field) {
-  convert_optional(given, context, field);
-}
-
-void convert(const Given& given, Context& context, std::optional<Pattern>& field) {
-  convert_optional(given, context, field);
-}
-
 void convert(const Given& given, Context&, std::optional<SharedMaterial>& field) {
   field = get<SharedMaterial>(given);
-}
-
-void convert(const Given& given, Context& context, std::optional<Projection>& field) {
-  convert_optional(given, context, field);
-}
-
-void convert(const Given& given, Context& context, std::optional<PanoramaProjection>& field) {
-  convert_optional(given, context, field);
-}
-
-void convert(const Given& given, Context& context, std::optional<Camera>& field) {
-  convert_optional(given, context, field);
-}
-
-void convert(const Given& given, Context& context, std::optional<Background>& field) {
-  convert_optional(given, context, field);
 }
 
 }  // namespace crt::lang

@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -16,6 +19,7 @@
 #include "crt/light.hpp"
 #include "crt/material.hpp"
 #include "crt/primitives.hpp"
+#include "crt/schema.hpp"
 #include "crt/settings.hpp"
 #include "crt/text.hpp"
 #include "lang/context.hpp"
@@ -49,7 +53,6 @@ void convert(const Given& given, Context& context, Color& field);
 void convert(const Given& given, Context& context, Pattern& field);
 void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field);
 void convert(const Given& given, Context& context, std::vector<ColorStop>& field);
-void convert(const Given& given, Context& context, ImageMapping& field);
 void convert(const Given& given, Context& context, FillRule& field);
 void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
@@ -60,26 +63,27 @@ void convert(const Given& given, Context& context, TextAlignment& field);
 void convert(const Given& given, Context& context, HeightImage& field);
 void convert(const Given& given, Context& context, HeightRows& field);
 void convert(const Given& given, Context& context, Field& field);
-void convert(const Given& given, Context& context, Projection& field);
-void convert(const Given& given, Context& context, PanoramaProjection& field);
-void convert(const Given& given, Context& context, ApertureShape& field);
-void convert(const Given& given, Context& context, FalloffModel& field);
-void convert(const Given& given, Context& context, AmbientModel& field);
-void convert(const Given& given, Context& context, Precision& field);
-void convert(const Given& given, Context& context, PixelFilter& field);
 void convert(const Given& given, Context& context, Camera& field);
 void convert(const Given& given, Context& context, std::vector<Light>& field);
 void convert(const Given& given, Context& context, Background& field);
-
-void convert(const Given& given, Context& context, std::optional<double>& field);
-void convert(const Given& given, Context& context, std::optional<FillRule>& field);
-void convert(const Given& given, Context& context, std::optional<Color>& field);
-void convert(const Given& given, Context& context, std::optional<Pattern>& field);
 void convert(const Given& given, Context& context, std::optional<SharedMaterial>& field);
-void convert(const Given& given, Context& context, std::optional<Projection>& field);
-void convert(const Given& given, Context& context, std::optional<PanoramaProjection>& field);
-void convert(const Given& given, Context& context, std::optional<Camera>& field);
-void convert(const Given& given, Context& context, std::optional<Background>& field);
+
+/// Returns the place of the word that was given among some, in small letters or large ones.
+std::size_t choose(const Given& given, std::span<const schema::Name> words);
+
+template <class Enum>
+requires std::is_enum_v<Enum>
+void convert(const Given& given, Context&, Enum& field) {
+  field = static_cast<Enum>(choose(given, schema::choices<Enum>.script_names));
+}
+
+/// An optional field takes what the field itself takes.
+template <class Field>
+void convert(const Given& given, Context& context, std::optional<Field>& field) {
+  Field value{};
+  convert(given, context, value);
+  field = std::move(value);
+}
 
 /// Names what convert() takes for a field of this type.
 constexpr std::string_view type_text(const double*) {
@@ -112,12 +116,6 @@ constexpr std::string_view type_text(const std::variant<Color, Pattern>*) {
 constexpr std::string_view type_text(const std::vector<ColorStop>*) {
   return "List of colors";
 }
-constexpr std::string_view type_text(const ImageMapping*) {
-  return "String";
-}
-constexpr std::string_view type_text(const FillRule*) {
-  return "String";
-}
 constexpr std::string_view type_text(const SharedMaterial*) {
   return "Material";
 }
@@ -133,9 +131,6 @@ constexpr std::string_view type_text(const std::shared_ptr<const Profile>*) {
 constexpr std::string_view type_text(const std::shared_ptr<const Font>*) {
   return "String";
 }
-constexpr std::string_view type_text(const TextAlignment*) {
-  return "String";
-}
 constexpr std::string_view type_text(const HeightImage*) {
   return "String";
 }
@@ -147,27 +142,6 @@ inline constexpr std::string_view field_type = "Field";
 constexpr std::string_view type_text(const Field*) {
   return field_type;
 }
-constexpr std::string_view type_text(const Projection*) {
-  return "String";
-}
-constexpr std::string_view type_text(const PanoramaProjection*) {
-  return "String";
-}
-constexpr std::string_view type_text(const ApertureShape*) {
-  return "String";
-}
-constexpr std::string_view type_text(const FalloffModel*) {
-  return "String";
-}
-constexpr std::string_view type_text(const AmbientModel*) {
-  return "String";
-}
-constexpr std::string_view type_text(const Precision*) {
-  return "String";
-}
-constexpr std::string_view type_text(const PixelFilter*) {
-  return "String";
-}
 constexpr std::string_view type_text(const Camera*) {
   return "Camera";
 }
@@ -176,6 +150,11 @@ constexpr std::string_view type_text(const std::vector<Light>*) {
 }
 constexpr std::string_view type_text(const Background*) {
   return "Background";
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+constexpr std::string_view type_text(const Enum*) {
+  return "String";
 }
 template <class Field>
 constexpr std::string_view type_text(const std::optional<Field>*) {

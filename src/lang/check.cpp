@@ -26,7 +26,6 @@ constexpr std::array foreign_objects = {
     Hint{"Texture", "; did you mean 'Material'?"},
     Hint{"Pigment", "; did you mean 'Material'?"},
     Hint{"Finish", "; did you mean 'Material'?"},
-    Hint{"Ellipsoid", "; it is a Sphere { ... } <scale vec3(1, 2, 1)>"},
     Hint{"Union", "; the union of two entities is a + b"},
     Hint{"Difference", "; the difference of two entities is a - b"},
     Hint{"Intersection", "; the intersection of two entities is a ^ b"},

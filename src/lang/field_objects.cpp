@@ -14,11 +14,6 @@ namespace crt::lang {
 
 namespace {
 
-Value finish_implicit(Implicit implicit, const ObjectSite& site) {
-  site.context.count_made(site.name_span);
-  return Entity(std::move(implicit));
-}
-
 /// BlobParts are a List of parts as a script has them.
 struct BlobParts {
   std::vector<BlobPart> parts;
@@ -98,11 +93,6 @@ Value finish_superellipsoid(SuperellipsoidOfScript given, const ObjectSite& site
 
 std::vector<ObjectType> field_objects() {
   return {
-      object<Implicit>("Implicit",
-                       {required("field", &Implicit::field), required("lower", &Implicit::lower),
-                        required("upper", &Implicit::upper),
-                        attribute("material", &Implicit::material, "a grey of 0.5")},
-                       finish_implicit),
       object<BlobOfScript>(
           "Blob",
           {required("parts", &BlobOfScript::parts), required("threshold", &BlobOfScript::threshold),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "lang/object_builder.hpp"
+#include "text/format.hpp"
 #include "text/letters.hpp"
 
 namespace crt::lang {
@@ -41,6 +43,22 @@ void name_other_field(std::string& message, std::span<const Given> attributes) {
 }
 
 }  // namespace
+
+std::string text_of_default(double value) {
+  return text::format("{}", value);
+}
+
+std::string text_of_default(const std::string& value) {
+  return text::format("\"{}\"", value);
+}
+
+std::string text_of_default(const Vec3& value) {
+  return text::format("vec3({}, {}, {})", value.x, value.y, value.z);
+}
+
+std::string text_of_default(const Color& value) {
+  return text::format("rgb({}, {}, {})", value.r, value.g, value.b);
+}
 
 const ObjectType* find_object_type(std::string_view name) {
   const std::span<const ObjectType> types = object_types();

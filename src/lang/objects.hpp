@@ -1,12 +1,14 @@
-// The objects of the language are one table with a row for each object. Adding a primitive is
-// adding a row in object_table.cpp.
+// The objects of the language are one table with a row for each object. Most rows follow from the
+// schema (crt/schema.hpp).
 #pragma once
 
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "crt/schema.hpp"
 #include "lang/context.hpp"
 #include "lang/source_map.hpp"
 #include "lang/value.hpp"
@@ -21,10 +23,15 @@ struct AttributeType {
   /// Names the type that it takes as the reference does: "Float".
   std::string_view type;
   /// The default is as the reference writes it, and empty for a required attribute.
-  std::string_view default_text;
+  std::string default_text;
+  /// Lists the words that it takes, if it takes only some.
+  std::span<const schema::Name> choices;
   /// States the range in the script's units, where the core's own message has others: "must be ...
   /// degrees". Elsewhere it is empty.
   std::string_view rule;
+  /// Says what it means, as the reference does, if it is a row of the schema.
+  std::string_view about;
+  bool is_of_schema = false;
   /// Puts a value into the C++ struct that the object becomes. Throws a Failure at the value.
   std::function<void(void* object, const Given& given, Context& context)> assign;
 };

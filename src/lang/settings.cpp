@@ -1,5 +1,7 @@
 #include "lang/settings.hpp"
 
+#include "crt/schema_scene.hpp"
+#include "crt/schema_settings.hpp"
 #include "crt/validate.hpp"
 #include "lang/failure.hpp"
 #include "lang/object_builder.hpp"
@@ -17,45 +19,15 @@ struct SettingsFields : Settings {
   std::vector<Light> lights;
 };
 
-template <class Field>
-AttributeType setting(std::string_view name, Field Settings::*field,
-                      std::string_view default_text) {
-  return attribute<SettingsFields, Field>(name, field, default_text);
-}
-
 ObjectType make_settings_type() {
   using Fields = SettingsFields;
-  return {.name = "Settings",
-          .attributes = {setting("title", &Settings::title, "\"\""),
-                         setting("author", &Settings::author, "\"\""),
-                         setting("date", &Settings::date, "\"\""),
-                         setting("notes", &Settings::notes, "\"\""),
-                         setting("width", &Settings::width, "640"),
-                         setting("height", &Settings::height, "480"),
-                         setting("gamma", &Settings::gamma, "2.2"),
-                         setting("supersampling", &Settings::supersampling, "1"),
-                         setting("dofsamples", &Settings::dof_samples, "1"),
-                         setting("targeterror", &Settings::target_error, "0"),
-                         setting("timebudget", &Settings::time_budget, "0"),
-                         setting("minsamples", &Settings::min_samples, "16"),
-                         setting("maxsamples", &Settings::max_samples, "1024"),
-                         setting("filter", &Settings::filter, "\"box\""),
-                         setting("filterwidth", &Settings::filter_width, "3"),
-                         setting("recursiondepth", &Settings::recursion_depth, "3"),
-                         setting("minweight", &Settings::min_weight, "1.0 / 1024"),
-                         setting("falloffmodel", &Settings::falloff_model, "\"light\""),
-                         setting("ambientmodel", &Settings::ambient_model, "\"surface\""),
-                         setting("headlight", &Settings::head_light, "true"),
-                         setting("showclip", &Settings::show_clip, "false"),
-                         setting("seed", &Settings::seed, "0"),
-                         setting("precision", &Settings::precision, "\"standard\""),
-                         setting("compat", &Settings::compat, "0"),
-                         attribute("projection", &Fields::projection, "\"pinhole\""),
-                         attribute("camera", &Fields::camera,
-                                   "at vec3(0, 0, -1), pointing at vec3(0, 0, 0)"),
-                         attribute("lights", &Fields::lights, "[]"),
-                         attribute("background", &Fields::background, "Background { }")},
-          .build = {}};
+  ObjectType type{.name = "Settings", .attributes = attributes_of<Settings, Fields>(), .build = {}};
+  type.attributes.push_back(attribute("projection", &Fields::projection, "\"pinhole\""));
+  type.attributes.push_back(
+      attribute("camera", &Fields::camera, "at vec3(0, 0, -1), pointing at vec3(0, 0, 0)"));
+  type.attributes.push_back(attribute("lights", &Fields::lights, "[]"));
+  type.attributes.push_back(attribute("background", &Fields::background, "Background { }"));
+  return type;
 }
 
 /// Returns what Settings begin with.

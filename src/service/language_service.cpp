@@ -69,12 +69,14 @@ ScriptOptions with_low_limits(ScriptOptions options) {
 ObjectDescription describe(const lang::ObjectType& type) {
   ObjectDescription object{.name = std::string(type.name), .attributes = {}};
   for (const lang::AttributeType& attribute : type.attributes) {
-    object.attributes.push_back(
-        {.name = std::string(attribute.name),
-         .type = std::string(attribute.type),
-         .required = attribute.required,
-         .default_text = std::string(attribute.default_text),
-         .documentation = reference().attribute(type.name, attribute.name)});
+    object.attributes.push_back({.name = std::string(attribute.name),
+                                 .type = std::string(attribute.type),
+                                 .required = attribute.required,
+                                 .default_text = std::string(attribute.default_text),
+                                 .documentation = reference().attribute(type.name, attribute.name),
+                                 .choices = {}});
+    for (const schema::Name& word : attribute.choices)
+      object.attributes.back().choices.emplace_back(word.text());
   }
   return object;
 }

@@ -34,7 +34,7 @@ EntityDescription description_of(const Primitive& primitive) {
   const Syntax syntax(SourceLanguage::python);
   EntityDescription result{.kind = code.name};
   for (const Argument& argument : code.arguments) {
-    if (*argument.cpp == '\0') continue;
+    if (argument.cpp.empty()) continue;
     const auto* const number = std::get_if<double>(&argument.value);
     result.values.emplace_back(argument.cpp, number != nullptr
                                                  ? Syntax::number(*number)

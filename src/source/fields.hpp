@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "crt/color.hpp"
+#include "crt/schema.hpp"
 #include "source/syntax.hpp"
 
 namespace crt::source {
@@ -16,10 +18,6 @@ struct StructField {
   std::variant<std::string, Vec3> value;
 };
 
-/// Returns what a script calls a field of C++: "cornerA" for "corner_a", "bumpheight" for
-/// "bump_height".
-std::string script_name(const std::string& cpp);
-
 /// Fields are those of one struct in the language that is written. Each is named as C++ has it and
 /// as C and Python have it. An empty name says that there is no such field. Scripts have the fields
 /// of C++.
@@ -27,26 +25,16 @@ class Fields {
  public:
   explicit Fields(const Syntax& syntax) : syntax_(syntax) {}
 
-  void add_text(const char* cpp, const char* c, std::string text);
-  void add(const char* cpp, const char* c, double value, double usual);
-  void add(const char* cpp, const char* c, const Vec3& value, const Vec3& usual);
-  /// Adds a colour, whose alpha is a field of its own but in C++. `alpha` may be empty.
-  void add(const char* cpp, const char* c, const char* alpha, const Color& value,
-           const Color& usual);
-  void add_string(const char* name, const std::string& value);
-  void add_flag(const char* cpp, const char* c, bool value, bool usual);
+  void add_text(std::string_view cpp, std::string_view c, std::string text);
+  void add_vector(std::string_view cpp, std::string_view c, const Vec3& value);
   template <class Enum>
-  void add_enum(const char* cpp, const char* c, const char* type, const char* prefix,
-                std::span<const char* const> names, Enum value, Enum usual) {
-    if (value != usual) {
-      add_text(cpp, c, syntax_.enumerator(type, prefix, names[static_cast<std::size_t>(value)]));
-    }
+  void add_enum(std::string_view cpp, std::string_view c, Enum value, Enum usual) {
+    if (value == usual) return;
+    const auto& choices = schema::choices<Enum>;
+    add_text(cpp, c,
+             syntax_.enumerator(choices.type, choices.c_prefix,
+                                choices.names.at(schema::place_of(value))));
   }
-
-  /// Returns the default of a field. In scripts, which must have this field, no value equals it.
-  double required(double usual) const;
-  Vec3 required(const Vec3& usual) const;
-  Color required(const Color& usual) const;
 
   const std::vector<StructField>& all() const { return fields_; }
   /// Returns "name -> value", "name=value" or ".name = value" for each field.
@@ -56,7 +44,7 @@ class Fields {
   std::string constructed(const std::string& name) const;
 
  private:
-  std::string name_of(const char* cpp, const char* c) const;
+  std::string name_of(std::string_view cpp, std::string_view c) const;
 
   Syntax syntax_;
   std::vector<StructField> fields_;

@@ -5,6 +5,7 @@
 #include "core/geometry/height_field/grid.hpp"
 #include "core/geometry/profile/profile.hpp"
 #include "crt/error.hpp"
+#include "crt/schema_primitives.hpp"
 #include "source/values.hpp"
 #include "text/format.hpp"
 
@@ -12,63 +13,11 @@ namespace crt::source {
 
 namespace {
 
-ShapeCode code_of(const Sphere& it) {
-  return {"Sphere", "sphere", {{"center", "center", it.center}, {"radius", "radius", it.radius}}};
+template <class Kind>
+ShapeCode code_of(const Kind& it) {
+  return shape_code_of(it);
 }
-ShapeCode code_of(const Box& it) {
-  return {
-      "Box", "box", {{"corner_a", "corner_a", it.corner_a}, {"corner_b", "corner_b", it.corner_b}}};
-}
-ShapeCode code_of(const Plane& it) {
-  return {
-      "Plane", "plane", {{"normal", "normal", it.normal}, {"position", "position", it.position}}};
-}
-ShapeCode code_of(const HalfPlane& it) {
-  return {"HalfPlane",
-          "half_plane",
-          {{"normal", "normal", it.normal},
-           {"position", "position", it.position},
-           {"direction", "direction", it.direction}}};
-}
-ShapeCode code_of(const Cylinder& it) {
-  return {"Cylinder",
-          "cylinder",
-          {{"from", "start", it.from}, {"to", "end", it.to}, {"radius", "radius", it.radius}}};
-}
-ShapeCode code_of(const Cone& it) {
-  return {"Cone",
-          "cone",
-          {{"from", "start", it.from},
-           {"to", "end", it.to},
-           {"radius", "radius", it.radius},
-           {"radius2", "radius2", it.radius2}}};
-}
-ShapeCode code_of(const Torus& it) {
-  return {"Torus",
-          "torus",
-          {{"center", "center", it.center},
-           {"axis", "axis", it.axis},
-           {"radius", "radius", it.radius},
-           {"thickness", "thickness", it.thickness}}};
-}
-ShapeCode code_of(const Disc& it) {
-  return {"Disc",
-          "disc",
-          {{"center", "center", it.center},
-           {"normal", "normal", it.normal},
-           {"radius", "radius", it.radius}}};
-}
-ShapeCode code_of(const Triangle& it) {
-  return {"Triangle", "triangle", {{"a", "a", it.a}, {"b", "b", it.b}, {"c", "c", it.c}}};
-}
-ShapeCode code_of(const Capsule& it) {
-  return {"Capsule",
-          "capsule",
-          {{"from", "start", it.from}, {"to", "end", it.to}, {"radius", "radius", it.radius}}};
-}
-ShapeCode code_of(const Mesh&) {
-  return {"Mesh", "mesh", {}};
-}
+// In C and Python these have an axis, which may lie anywhere.
 ShapeCode code_of(const Extrusion& it) {
   const double low = std::min(it.from, it.to);
   const double high = std::max(it.from, it.to);
@@ -85,25 +34,6 @@ ShapeCode code_of(const Revolution& it) {
           {{"", "start", Vec3(0, 0, 0)},
            {"", "end", Vec3(0, 1, 0)},
            {"angle", "angle", it.angle, true}}};
-}
-ShapeCode code_of(const HeightField& it) {
-  return {"HeightField",
-          "height_field",
-          {{"corner_a", "corner_a", it.corner_a}, {"corner_b", "corner_b", it.corner_b}}};
-}
-ShapeCode code_of(const Quadric& it) {
-  return {"Quadric",
-          "quadric",
-          {{"squares", "squares", it.squares},
-           {"products", "products", it.products},
-           {"linear", "linear", it.linear},
-           {"constant", "constant", it.constant}}};
-}
-ShapeCode code_of(const Implicit& it) {
-  return {"Implicit", "implicit", {{"lower", "lower", it.lower}, {"upper", "upper", it.upper}}};
-}
-ShapeCode code_of(const Custom&) {
-  return {"Custom", "custom", {}};
 }
 
 /// A SharedPart is what a primitive has beside numbers. C may have several arguments for it.
@@ -235,7 +165,7 @@ std::string value_text(Program& program, const Argument& argument) {
 std::string c_value(Program& program, const ShapeCode& code, SharedPart part) {
   std::vector<std::string> arguments = std::move(part.values);
   for (const Argument& argument : code.arguments) {
-    if (*argument.python != '\0') arguments.push_back(value_text(program, argument));
+    if (!argument.python.empty()) arguments.push_back(value_text(program, argument));
   }
   return program.create("entity", text::format("crt_{}_create", code.c), std::move(arguments));
 }

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "crt/primitives.hpp"
+#include "crt/schema.hpp"
 #include "source/program.hpp"
 
 namespace crt::source {
@@ -13,18 +16,33 @@ namespace crt::source {
 /// An Argument is a field of a primitive, as C++ and as Python name it. C has those that Python
 /// has, in their order. An empty name says that there is none.
 struct Argument {
-  const char* cpp;
-  const char* python;
+  std::string_view cpp;
+  std::string_view python;
   std::variant<double, Vec3> value;
   bool is_angle = false;  ///< which Python has in degrees
 };
 
 /// A ShapeCode says how a primitive is made of numbers.
 struct ShapeCode {
-  const char* name;  ///< in C++ and Python
-  const char* c;     ///< "sphere", of crt_sphere_create
+  std::string name;  ///< in C++ and Python
+  std::string c;     ///< "sphere", of crt_sphere_create
   std::vector<Argument> arguments;
 };
+
+/// Returns how a primitive is made by the rows of the schema that are numbers.
+template <class Kind>
+ShapeCode shape_code_of(const Kind& it) {
+  ShapeCode code{std::string(schema::table<Kind>.name),
+                 std::string(schema::c_name(schema::table<Kind>.name).text()),
+                 {}};
+  schema::for_each_field<Kind>([&]<class Row>(const Row& row) {
+    using Value = typename Row::Value;
+    if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, Vec3>) {
+      code.arguments.push_back({row.name, row.c_name(), it.*row.member, !row.uses.degrees.empty()});
+    }
+  });
+  return code;
+}
 
 /// Returns how a primitive is made, but for what it shares with others: its profile, triangles,
 /// heights or field.

@@ -132,7 +132,8 @@ std::string Syntax::constructed(const std::string& name, std::span<const std::st
   return text + "}";
 }
 
-std::string Syntax::enumerator(const char* type, const char* prefix, std::string_view name) const {
+std::string Syntax::enumerator(std::string_view type, std::string_view prefix,
+                               std::string_view name) const {
   if (is_cpp()) return text::format("{}::{}", type, name);
   if (is_script()) {
     std::string word(name);

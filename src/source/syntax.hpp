@@ -39,7 +39,8 @@ class Syntax {
   /// Returns "Name{items}", "crt.Name(items)" or "Name { items }".
   std::string constructed(const std::string& name, std::span<const std::string> items) const;
   /// Returns an enumerator. `prefix` is what its name in C begins with, such as "CRT_FILTER".
-  std::string enumerator(const char* type, const char* prefix, std::string_view name) const;
+  std::string enumerator(std::string_view type, std::string_view prefix,
+                         std::string_view name) const;
 
  private:
   SourceLanguage language_;

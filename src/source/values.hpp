@@ -30,7 +30,7 @@ std::string camera_value(Program& program, const Camera& camera);
 std::string background_value(Program& program, const Background& background);
 
 /// Returns the fields of Settings. Throws Error (unsupported) for a seed that scripts cannot have.
-Fields settings_fields(const Program& program, const Settings& settings);
+Fields settings_fields(Program& program, const Settings& settings);
 
 /// Adds how a camera projects, which is a field of Settings in scripts.
 void add_projection(Fields& fields, const Camera& camera);

@@ -148,12 +148,14 @@ json objects_json() {
   json objects = json::array();
   for (const ObjectDescription& object : describe_objects()) {
     json attributes = json::array();
-    for (const AttributeDescription& attribute : object.attributes)
+    for (const AttributeDescription& attribute : object.attributes) {
       attributes.push_back({{"name", attribute.name},
                             {"type", attribute.type},
                             {"required", attribute.required},
                             {"default", attribute.default_text},
                             {"about", attribute.documentation}});
+      if (!attribute.choices.empty()) attributes.back()["choices"] = attribute.choices;
+    }
     objects.push_back({{"name", object.name}, {"attributes", std::move(attributes)}});
   }
   return objects;

@@ -198,8 +198,8 @@ TEST_CASE(
     const float nothing[4] = {0, 0, 0, 0};
     const bool early_done = is(early, &whole[i]);
     const bool late_done = is(late, &whole[i]);
-    CHECK((early_done || is(early, invalid_index)));
-    CHECK((late_done || is(late, invalid_index)));
+    CHECK((early_done || is(early, nothing)));
+    CHECK((late_done || is(late, nothing)));
     CHECK((late_done || !early_done));
     done_early += early_done ? 1 : 0;
     done_late += late_done ? 1 : 0;

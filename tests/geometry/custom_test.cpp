@@ -232,7 +232,7 @@ TEST_CASE("a custom shape is one with itself, is combined, placed, and met by al
     Random random(3);
     for (int i = 0; i < 2000; ++i) {
       const Ray ray{.origin = 3.0 * random.direction(), .direction = random.direction()};
-      CHECK(crossings(invalid_index, ray).empty());
+      CHECK(crossings(nothing, ray).empty());
       const std::vector<Hit> hits = crossings(cut, ray);
       const std::vector<Hit> other = crossings(expected, ray);
       REQUIRE(hits.size() == other.size());

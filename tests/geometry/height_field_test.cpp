@@ -302,7 +302,7 @@ TEST_CASE("a field less itself is nothing, and with itself it is itself") {
       const PreparedScene alone = scene_of(Entity(field), tier);
       for (int i = 0; i < 100; ++i) {
         const Ray ray = field_ray(random, mesh);
-        REQUIRE(crossings(invalid_index, ray).empty());
+        REQUIRE(crossings(nothing, ray).empty());
         REQUIRE(crossings(with_mesh, ray).empty());
         const std::vector<Hit> hits = crossings(same, ray);
         const std::vector<Hit> expected = crossings(alone, ray);

@@ -51,7 +51,7 @@ Subject random_ball(Random& random) {
 
 std::string fault(const Implicit& implicit) {
   try {
-    core::validate(implicit);
+    core::validate(Primitive(implicit));
   } catch (const Error& error) {
     return error.argument();
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/geometry/implicit/field_node.hpp"
+#include "crt/schema_primitives.hpp"
 #include "geometry/custom_shapes.hpp"
 #include "geometry/oracle.hpp"
 #include "geometry/scaled_mesh.hpp"
@@ -34,52 +35,19 @@ std::vector<Real> plane_roots(const RealRay& ray, const RealVec& normal, const R
 
 namespace {
 
-Sphere times(Sphere s, double k) {
-  s.center *= k;
-  s.radius *= k;
-  return s;
-}
-Box times(Box s, double k) {
-  s.corner_a *= k;
-  s.corner_b *= k;
-  return s;
-}
-Plane times(Plane s, double k) {
-  s.position *= k;
-  return s;
-}
-HalfPlane times(HalfPlane s, double k) {
-  s.position *= k;
-  return s;
-}
-Cylinder times(Cylinder s, double k) {
-  s.from *= k;
-  s.to *= k;
-  s.radius *= k;
-  return s;
-}
-Cone times(Cone s, double k) {
-  s.from *= k;
-  s.to *= k;
-  s.radius *= k;
-  s.radius2 *= k;
-  return s;
-}
-Capsule times(Capsule s, double k) {
-  s.from *= k;
-  s.to *= k;
-  s.radius *= k;
-  return s;
-}
-Torus times(Torus s, double k) {
-  s.center *= k;
-  s.radius *= k;
-  s.thickness *= k;
-  return s;
-}
-Disc times(Disc s, double k) {
-  s.center *= k;
-  s.radius *= k;
+/// Scales what the schema has as points and lengths.
+template <class Shape>
+Shape times(Shape s, double k) {
+  using enum schema::Rule::Kind;
+  schema::for_each_field<Shape>([&]<class Row>(const Row& row) {
+    using Value = typename Row::Value;
+    const auto kind = row.rule.kind;
+    if constexpr (std::is_same_v<Value, double>) {
+      if (kind == length || kind == length_or_zero) s.*row.member *= k;
+    } else if constexpr (std::is_same_v<Value, Vec3>) {
+      if (kind == point || kind == apart || kind == corner) s.*row.member *= k;
+    }
+  });
   return s;
 }
 Mesh times(const Mesh& s, double k) {
@@ -96,11 +64,6 @@ Revolution times(Revolution s, double k) {
   return s;
 }
 
-HeightField times(HeightField s, double k) {
-  s.corner_a *= k;
-  s.corner_b *= k;
-  return s;
-}
 Quadric times(Quadric s, double k) {
   s.squares /= k;
   s.squares /= k;
@@ -126,18 +89,10 @@ Field with_scaled_argument(const core::FieldNode& node, double k) {
 
 Implicit times(Implicit s, double k) {
   s.field = with_scaled_argument(s.field.node(), k);
-  s.lower *= k;
-  s.upper *= k;
-  return s;
+  return times<Implicit>(std::move(s), k);
 }
 Custom times(const Custom& s, double k) {
   return as_custom(scaled(dynamic_cast<const PrimitiveAsCustom&>(*s.shape).primitive(), k));
-}
-Triangle times(Triangle s, double k) {
-  s.a *= k;
-  s.b *= k;
-  s.c *= k;
-  return s;
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ class RealProfile {
       if ((piece.from.y > p.y) != (piece.to.y > p.y) && is_left(piece, p) == rises) {
         inside = !inside;
       }
-      if (piece.arc != invalid_index && is_in_segment(piece, p)) inside = !inside;
+      if (piece.arc != core::invalid_index && is_in_segment(piece, p)) inside = !inside;
     }
     return inside;
   }
@@ -127,7 +127,7 @@ class RealProfile {
       const RealVec from(piece.from);
       const RealVec along = RealVec(piece.to) - from;
       const RealVec offset(p.x - from.x, p.y - from.y, 0);
-      if (piece.arc == invalid_index) {
+      if (piece.arc == core::invalid_index) {
         const Real share = std::clamp<Real>(dot(offset, along) / dot(along, along), 0, 1);
         consider(length(offset - share * along));
         continue;

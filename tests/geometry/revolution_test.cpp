@@ -341,7 +341,7 @@ TEST_CASE("a face that is flush with another solid's opens it") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     for (const Entity& nothing : {vase - cone, cone - vase}) {
       Scene scene;
-      scene.entities = {invalid_index};
+      scene.entities = {nothing};
       scene.settings.precision = precision;
       const PreparedScene prepared = prepare(scene);
       for (int i = 0; i < 2000; ++i) {

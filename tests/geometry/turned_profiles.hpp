@@ -51,7 +51,7 @@ inline double random_turn(Random& random) {
 /// Returns all parameters at which a line may cross what a piece makes, or its arc.
 inline std::vector<Real> wall_candidates(const Profile& profile, const Profile::Piece& piece,
                                          const RealRay& ray) {
-  if (piece.arc != invalid_index) {
+  if (piece.arc != core::invalid_index) {
     const Profile::Arc& arc = profile.arcs()[piece.arc];
     const RealVec center(0, arc.center.y, 0);
     const Real ring = magnitude(arc.center.x);

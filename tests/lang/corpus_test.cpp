@@ -11,11 +11,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "crt/script.hpp"
+#include "lang/objects.hpp"
 
 namespace {
 
@@ -32,10 +34,22 @@ std::vector<fs::path> scripts_in(const char* folder) {
   return scripts;
 }
 
+/// Lists the names of all objects as messages do.
+std::string all_objects() {
+  std::string list;
+  const std::span<const crt::lang::ObjectType> types = crt::lang::object_types();
+  for (const crt::lang::ObjectType& type : types)
+    list += (list.empty() ? "" : &type == &types.back() ? " and " : ", ") + std::string(type.name);
+  return list;
+}
+
 std::vector<std::string> expectations(const fs::path& script) {
   std::vector<std::string> lines;
   std::ifstream file(script, std::ios::binary);
   for (std::string line; std::getline(file, line);) {
+    // A list of all objects grows with them.
+    if (const std::size_t list = line.find("{objects}"); list != std::string::npos)
+      line.replace(list, std::string("{objects}").size(), all_objects());
     for (const char* kind :
          {"-- prints: ", "-- error ", "-- warning ", "-- in ", "-- and ", "-- entities: "}) {
       if (line.starts_with(kind)) lines.push_back(line);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "lang/builtins.hpp"
 #include "lang/objects.hpp"
 #include "lang/settings.hpp"
+#include "reference_tables.hpp"
 #include "run.hpp"
 
 namespace {
@@ -44,55 +44,6 @@ std::vector<std::string> examples() {
     }
   }
   return result;
-}
-
-/// Returns the cells of "| a | b \| c |", without the blanks around them.
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> result;
-  std::string cell;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    if (line[i] != '|' || line[i - 1] == '\\') {
-      cell += line[i];
-      continue;
-    }
-    const std::size_t begin = cell.find_first_not_of(' ');
-    const std::size_t end = cell.find_last_not_of(' ');
-    result.push_back(begin == std::string::npos ? "" : cell.substr(begin, end - begin + 1));
-    cell.clear();
-  }
-  return result;
-}
-
-/// Returns the tables of attributes, by the heading they stand under: "name type default" for each
-/// row.
-std::map<std::string, std::vector<std::string>> attribute_tables() {
-  std::map<std::string, std::vector<std::string>> tables;
-  std::string heading;
-  bool inside = false;
-  for (const std::string& line : reference_lines()) {
-    if (line.starts_with("#")) heading = line.substr(line.find(' ') + 1);
-    if (line.starts_with("| attribute |")) {
-      inside = true;
-      tables[heading];
-    } else if (!line.starts_with("|")) {
-      inside = false;
-    } else if (inside && !line.starts_with("| ---")) {
-      const std::vector<std::string> row = cells(line);
-      REQUIRE(row.size() == 4);
-      tables[heading].push_back(row[0] + " " + row[1] + " " + row[2]);
-    }
-  }
-  return tables;
-}
-
-std::vector<std::string> rows_of(const crt::lang::ObjectType& type) {
-  std::vector<std::string> rows;
-  for (const crt::lang::AttributeType& attribute : type.attributes) {
-    const std::string default_text =
-        attribute.required ? "required" : fmt::format("`{}`", attribute.default_text);
-    rows.push_back(fmt::format("`{}` {} {}", attribute.name, attribute.type, default_text));
-  }
-  return rows;
 }
 
 /// Returns a picture of one pixel as a PNG file.
@@ -145,21 +96,32 @@ TEST_CASE("an example that is said to print something prints it") {
 }
 
 TEST_CASE("the reference's tables of attributes are those of the code, row by row") {
-  auto tables = attribute_tables();
-  for (const crt::lang::ObjectType& type : crt::lang::object_types()) {
-    CAPTURE(type.name);
-    CHECK(tables[std::string(type.name)] == rows_of(type));
-    tables.erase(std::string(type.name));
+  const std::string page = fmt::format("{}\n", fmt::join(reference_lines(), "\n"));
+  const auto shown = crt::test::with_attribute_tables(page);
+  CHECK_MESSAGE(shown == page, "run ./dev generate");
+  std::vector<std::string> objects = {"Settings"};
+  for (const crt::lang::ObjectType& type : crt::lang::object_types())
+    objects.emplace_back(type.name);
+  for (const std::string& name : objects) {
+    CAPTURE(name);
+    const std::size_t heading = page.find("# " + name + "\n");
+    REQUIRE(heading != std::string::npos);
+    const std::string section = page.substr(heading, page.find("\n#", heading) - heading);
+    CHECK(section.find("\n| attribute | type | default | meaning and range |\n") !=
+          std::string::npos);
   }
-  CHECK(tables["Settings"] == rows_of(crt::lang::settings_type()));
-  tables.erase("Settings");
-  CHECK(tables.empty());
+}
+
+TEST_CASE("the parser's fuzzer knows the names of all objects and attributes") {
+  std::ifstream file(fs::path(CRT_SOURCE_DIR) / "tests" / "fuzz" / "parser.dict");
+  const std::string words((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  CHECK_MESSAGE(crt::test::with_object_words(words) == words, "run ./dev generate");
 }
 
 TEST_CASE("the reference lists every built-in by its name") {
   std::string table;
   for (const std::string& line : reference_lines()) {
-    if (line.starts_with("| `")) table += cells(line)[0] + '\n';
+    if (line.starts_with("| `")) table += crt::test::cells(line)[0] + '\n';
   }
   for (const crt::lang::Builtin& builtin : crt::lang::builtins()) {
     CAPTURE(builtin.name);
@@ -171,7 +133,7 @@ TEST_CASE("what the reference says a built-in's example is, it is") {
   std::size_t checked = 0;
   for (const std::string& line : reference_lines()) {
     if (!line.starts_with("| `")) continue;
-    const std::vector<std::string> row = cells(line);
+    const std::vector<std::string> row = crt::test::cells(line);
     const std::size_t is = row.size() == 3 ? row[2].find("` is ") : std::string::npos;
     if (is == std::string::npos) continue;
     const std::string expression = row[2].substr(1, is - 1);

@@ -274,17 +274,17 @@ TEST_CASE("the empty entity is what the empty set is") {
   CHECK(nothing.primitive_count() == 0);
   const Entity ball = Sphere{};
   const Entity disc = Disc{};
-  for (const Entity& same : {ball + nothing, invalid_index + ball, ball - nothing,
-                             csg_difference(ball, std::array{invalid_index, invalid_index}),
-                             csg_union(std::array{invalid_index, ball, invalid_index})}) {
+  for (const Entity& same : {ball + nothing, nothing + ball, ball - nothing,
+                             csg_difference(ball, std::array{nothing, nothing}),
+                             csg_union(std::array{nothing, ball, nothing})}) {
     CHECK(same.shared_node() == ball.shared_node());
   }
   CHECK((disc + nothing).shared_node() == disc.shared_node());
   const Entity bitten =
-      csg_difference(ball, std::array{invalid_index, Entity(Box{}), invalid_index});
+      csg_difference(ball, std::array{nothing, Entity(Box{}), nothing});
   CHECK(bitten.primitive_count() == 2);
   for (const Entity& empty :
-       {ball ^ nothing, invalid_index ^ ball, invalid_index - ball, invalid_index + nothing,
+       {ball ^ nothing, nothing ^ ball, nothing - ball, nothing + nothing,
         nothing - nothing, nothing.transformed(translate({1, 2, 3})), nothing.with_id(7),
         nothing.with_material(Material{})}) {
     CHECK(empty.is_empty());
@@ -292,7 +292,7 @@ TEST_CASE("the empty entity is what the empty set is") {
   CHECK_FALSE(ball.is_empty());
   // The rules for operands hold for these, too.
   CHECK_THROWS_AS(disc ^ nothing, Error);
-  CHECK_THROWS_AS(invalid_index - disc, Error);
+  CHECK_THROWS_AS(nothing - disc, Error);
   CHECK_THROWS_AS(nothing.transformed(scale(0)), Error);
 }
 

@@ -165,9 +165,9 @@ std::vector<Arrangement::Part> Arrangement::parts_of(std::size_t contour) const 
     std::uint32_t begin = corners_[piece];
     Vec2 from = whole.from();
     const auto add = [&](std::uint32_t end, const Vec2& to) {
-      constexpr double nothing = 8;  // tolerances
+      constexpr double negligible = 8;  // tolerances
       const bool is_nothing =
-          begin != none && begin == end && glm::length(to - from) <= nothing * tolerance_;
+          begin != none && begin == end && glm::length(to - from) <= negligible * tolerance_;
       if (!is_nothing) {
         const bool is_whole = from == whole.from() && to == whole.to();
         parts.push_back({.from = from,

@@ -2,7 +2,13 @@
 // field.
 #pragma once
 
+#include <string_view>
+
 #include "crt/vec.hpp"
+
+namespace crt::schema {
+struct Rule;
+}
 
 namespace crt::core {
 
@@ -10,21 +16,26 @@ namespace crt::core {
 inline constexpr double smallest_length = 1e-100;
 
 /// Throws for the field: "<argument> <rule>".
-[[noreturn]] void reject(const char* argument, const char* rule);
+[[noreturn]] void reject(std::string_view argument, std::string_view rule);
 
 /// Checks that each coordinate is finite and at most 1e100 in magnitude.
-void check_coordinates(const char* argument, const Vec3& value);
+void check_coordinates(std::string_view argument, const Vec3& value);
 
 /// Checks a direction like coordinates. It must not be (0, 0, 0).
-void check_direction(const char* argument, const Vec3& value);
+void check_direction(std::string_view argument, const Vec3& value);
 
-/// Checks the end of an axis, which must be at least 1e-100 from its begin at `from`.
-void check_end(const char* argument, const Vec3& from, const Vec3& to);
+/// Checks the end of an axis, which must be at least 1e-100 from its begin in another argument.
+void check_end(std::string_view argument, const Vec3& from, const Vec3& to,
+               std::string_view other = "from");
 
-/// Checks that a radius is between 1e-100 and 1e100.
-void check_radius(const char* argument, double value);
+/// Checks a number by the rule of its field.
+void check_number(std::string_view argument, const schema::Rule& rule, double value);
 
-/// Checks a radius that may also be 0.
-void check_radius_or_zero(const char* argument, double value);
+/// Checks a vector by the rule of its field. `other` is the value of the field that the rule names.
+void check_vector(std::string_view argument, const schema::Rule& rule, const Vec3& value,
+                  const Vec3& other);
+
+/// Checks that something is there, which the function that the rule names makes.
+void check_made(std::string_view argument, const schema::Rule& rule, bool is_there);
 
 }  // namespace crt::core

@@ -1,12 +1,13 @@
 // The public description of a primitive becomes its shape here. The variant Primitive is the one
-// list of all primitives. Each has overloads of validate(), is_solid(), make_shape() and
-// make_exact_shape() of its own.
+// list of all primitives. Each has overloads of is_solid(), make_shape() and make_exact_shape() of
+// its own, and of validate() if its rules in crt/schema_primitives.hpp do not say all.
 #include "core/geometry/shape.hpp"
 
 #include <bit>
 
 #include "core/geometry/box/box.hpp"
 #include "core/geometry/capsule/capsule.hpp"
+#include "core/geometry/check_fields.hpp"
 #include "core/geometry/cone/cone.hpp"
 #include "core/geometry/custom/custom.hpp"
 #include "core/geometry/cylinder/cylinder.hpp"
@@ -23,6 +24,7 @@
 #include "core/geometry/sphere/sphere.hpp"
 #include "core/geometry/torus/torus.hpp"
 #include "core/geometry/triangle/triangle.hpp"
+#include "crt/schema_primitives.hpp"
 #include "crt/validate.hpp"
 
 namespace crt {
@@ -39,7 +41,6 @@ namespace {
 /// missing, those for a Primitive below would be taken, which would call themselves.
 template <class Description>
 constexpr bool has_all_functions = requires {
-  static_cast<void (*)(const Description&)>(&validate);
   static_cast<bool (*)(const Description&)>(&is_solid);
   static_cast<std::unique_ptr<const Shape> (*)(const Description&)>(&make_shape);
   static_cast<std::unique_ptr<const ExactShape> (*)(const Description&)>(&make_exact_shape);
@@ -51,7 +52,12 @@ constexpr bool have_all_functions(std::variant<Descriptions...>*) {
 }
 
 static_assert(have_all_functions(static_cast<Primitive*>(nullptr)),
-              "a primitive lacks one of validate, is_solid, make_shape, make_exact_shape");
+              "a primitive lacks one of is_solid, make_shape, make_exact_shape");
+
+template <class Description>
+constexpr bool has_own_validate = requires {
+  static_cast<void (*)(const Description&)>(&validate);
+};
 
 }  // namespace
 
@@ -69,7 +75,12 @@ void ShapeOfSinglePoints::points_on(const VectorLanes& offsets, const VectorLane
 }
 
 void validate(const Primitive& primitive) {
-  std::visit([](const auto& description) { validate(description); }, primitive);
+  std::visit(
+      []<class Description>(const Description& description) {
+        check_fields(description);
+        if constexpr (has_own_validate<Description>) validate(description);
+      },
+      primitive);
 }
 
 bool is_solid(const Primitive& primitive) {

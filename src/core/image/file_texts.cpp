@@ -1,10 +1,14 @@
 #include "core/image/file_texts.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <string_view>
+#include <type_traits>
 
+#include "crt/schema_settings.hpp"
 #include "crt/version.hpp"
 #include "text/format.hpp"
 
@@ -24,35 +28,38 @@ void add(FileTexts& texts, std::string_view name, std::string value) {
   if (!value.empty()) texts.emplace_back(name, std::move(value));
 }
 
-/// Adds how pixels were sampled, as far as that differs from the defaults.
-void add_sampling(FileTexts& texts, const Settings& settings) {
-  if (settings.target_error > 0)
-    add(texts, "crt:targeterror", text::format("{}", settings.target_error));
-  if (settings.time_budget > 0)
-    add(texts, "crt:timebudget", text::format("{}", settings.time_budget));
-  if (settings.target_error > 0 || settings.time_budget > 0) {
-    add(texts, "crt:minsamples", text::format("{}", settings.min_samples));
-    add(texts, "crt:maxsamples", text::format("{}", settings.max_samples));
-  }
-  if (settings.filter == PixelFilter::box) return;
-  add(texts, "crt:filter", "blackmanharris");
-  add(texts, "crt:filterwidth", text::format("{}", settings.filter_width));
+/// Says whether a setting stands in files with any value, also with the first one of its kind.
+bool is_always_written(std::string_view name) {
+  constexpr std::string_view names[] = {"gamma",           "supersampling", "dof_samples",
+                                        "recursion_depth", "min_weight",    "falloff_model",
+                                        "show_clip",       "seed"};
+  return std::ranges::find(names, name) != std::end(names);
 }
 
+/// Says whether a setting has an effect in this picture, and is not the size.
+bool is_in_use(std::string_view name, const Settings& settings) {
+  if (name == "width" || name == "height") return false;
+  if (name == "filter_width") return settings.filter != PixelFilter::box;
+  if (name != "min_samples" && name != "max_samples") return true;
+  return settings.target_error > 0 || settings.time_budget > 0;
+}
+
+/// Adds settings, of which most are left out where C has 0 for them.
 void add_settings(FileTexts& texts, const Settings& settings) {
-  add(texts, "crt:gamma", text::format("{}", settings.gamma));
-  add(texts, "crt:supersampling", text::format("{}", settings.supersampling));
-  add(texts, "crt:dofsamples", text::format("{}", settings.dof_samples));
-  add_sampling(texts, settings);
-  add(texts, "crt:recursiondepth", text::format("{}", settings.recursion_depth));
-  add(texts, "crt:minweight", text::format("{}", settings.min_weight));
-  add(texts, "crt:falloffmodel", settings.falloff_model == FalloffModel::path ? "path" : "light");
-  if (settings.ambient_model == AmbientModel::surface) add(texts, "crt:ambientmodel", "surface");
-  if (!settings.head_light) add(texts, "crt:headlight", "false");
-  add(texts, "crt:showclip", settings.show_clip ? "true" : "false");
-  add(texts, "crt:seed", text::format("{}", settings.seed));
-  if (settings.precision == Precision::exact) add(texts, "crt:precision", "exact");
-  if (settings.compat != 0) add(texts, "crt:compat", text::format("{}", settings.compat));
+  schema::for_each_field<Settings>([&]<class Row>(const Row& row) {
+    using Value = typename Row::Value;
+    const Value& value = settings.*row.member;
+    if constexpr (!std::is_same_v<Value, std::string>) {
+      const bool is_zero_in_c = (value == Value{}) != row.c_name().starts_with("no_");
+      if (!is_in_use(row.name, settings) || (is_zero_in_c && !is_always_written(row.name))) return;
+      const std::string name = text::format("crt:{}", row.script_name());
+      if constexpr (std::is_enum_v<Value>) {
+        add(texts, name, std::string(schema::script_name_of(value)));
+      } else {
+        add(texts, name, text::format("{}", value));
+      }
+    }
+  });
 }
 
 /// JPEG holds texts in segments of 64 KiB, several texts in one, and some with up to six bytes for

@@ -330,8 +330,8 @@ double asin(double x) {
 double acos(double x) {
   if (!(std::abs(x) <= 1)) return nan;
   // pi / 2 and its rounding are far more than x has below this.
-  constexpr double nothing = 0x1p-200;
-  if (std::abs(x) < nothing) return half_pi;
+  constexpr double negligible = 0x1p-200;
+  if (std::abs(x) < negligible) return half_pi;
   return angle_of(other_side(x), x).value();
 }
 

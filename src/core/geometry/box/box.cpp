@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "core/geometry/box/enclose_turned.hpp"
-#include "core/geometry/checks.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -166,18 +165,6 @@ void BoxShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std:
   const Vector share = within / size;
   point.u = plane.axis() == 0 ? share.z : share.x;
   point.v = plane.axis() == 1 ? share.z : share.y;
-}
-
-void validate(const Box& box) {
-  check_coordinates("corner_a", box.corner_a);
-  check_coordinates("corner_b", box.corner_b);
-  const Vec3 size = glm::abs(box.corner_b - box.corner_a);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (size[axis] == 0) reject("corner_b", "must differ from corner_a in every coordinate");
-    if (size[axis] < smallest_length) {
-      reject("corner_b", "must differ from corner_a by at least 1e-100 in every coordinate");
-    }
-  }
 }
 
 std::unique_ptr<const Shape> make_shape(const Box& box) {

@@ -56,7 +56,6 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   std::array<PlaneFace, 6> faces_;
 };
 
-void validate(const Box& box);
 inline bool is_solid(const Box&) {
   return true;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/geometry/checks.hpp"
 #include "core/geometry/near_line.hpp"
 #include "core/math/direction_and_length.hpp"
 #include "core/math/vector.hpp"
@@ -126,13 +125,6 @@ void CapsuleShape::points_on(const VectorLanes& offsets, const VectorLanes& dire
   const bool is_side = face == side_face;
   part(face).points_on(offsets, directions, some, 0, with_uv && is_side, points);
   if (with_uv) set_uv<Lanes>(face, points);
-}
-
-void validate(const Capsule& capsule) {
-  check_coordinates("from", capsule.from);
-  check_coordinates("to", capsule.to);
-  check_end("to", capsule.from, capsule.to);
-  check_radius("radius", capsule.radius);
 }
 
 std::unique_ptr<const Shape> make_shape(const Capsule& capsule) {

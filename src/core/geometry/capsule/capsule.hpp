@@ -75,7 +75,6 @@ class CapsuleShape final : public Shape {
   double tip_share_;  ///< of v, on each half sphere
 };
 
-void validate(const Capsule& capsule);
 inline bool is_solid(const Capsule&) {
   return true;
 }

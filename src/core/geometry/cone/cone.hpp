@@ -15,7 +15,6 @@ class ConeShape final : public FrustumShape {
       : FrustumShape(cone.from, cone.to, cone.radius, cone.radius2) {}
 };
 
-void validate(const Cone& cone);
 inline bool is_solid(const Cone&) {
   return true;
 }

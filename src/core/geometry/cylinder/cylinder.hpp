@@ -14,7 +14,6 @@ class CylinderShape final : public FrustumShape {
       : FrustumShape(cylinder.from, cylinder.to, cylinder.radius, cylinder.radius) {}
 };
 
-void validate(const Cylinder& cylinder);
 inline bool is_solid(const Cylinder&) {
   return true;
 }

@@ -2,7 +2,6 @@
 
 #include <crt/elementary.hpp>
 
-#include "core/geometry/checks.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -41,12 +40,6 @@ void DiscShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std
   const Vec3Of<Real> relative = face_.onto_plane(offset);
   face_.write_point(relative, point);
   if (with_uv) set_polar(relative, frame_, radius_, point);
-}
-
-void validate(const Disc& disc) {
-  check_coordinates("center", disc.center);
-  check_direction("normal", disc.normal);
-  check_radius("radius", disc.radius);
 }
 
 std::unique_ptr<const Shape> make_shape(const Disc& disc) {

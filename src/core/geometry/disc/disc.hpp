@@ -35,7 +35,6 @@ class DiscShape final : public ShapeOfPoints<DiscShape> {
 /// Returns how far a disc across `axis` reaches along each coordinate.
 Vec3 disc_extents(const Vec3& axis, double radius);
 
-void validate(const Disc& disc);
 inline bool is_solid(const Disc&) {
   return false;
 }

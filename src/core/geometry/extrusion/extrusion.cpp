@@ -202,7 +202,6 @@ std::size_t ExtrusionShape::bytes() const {
 }
 
 void validate(const Extrusion& extrusion) {
-  if (!extrusion.profile) reject("profile", "must be given (see make_profile)");
   const auto check = [](const char* name, double height) {
     check_coordinates(name, {0, 0, height});
   };

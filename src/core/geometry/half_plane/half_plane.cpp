@@ -49,9 +49,6 @@ void HalfPlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&
 }
 
 void validate(const HalfPlane& half_plane) {
-  check_direction("normal", half_plane.normal);
-  check_coordinates("position", half_plane.position);
-  check_direction("direction", half_plane.direction);
   if (largest_component(edge(half_plane)) == 0)
     reject("direction", "must not be parallel to normal");
 }

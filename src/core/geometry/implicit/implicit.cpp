@@ -100,8 +100,6 @@ Surface ImplicitShape::surface(std::uint32_t face) const {
 }
 
 void validate(const Implicit& implicit) {
-  check_coordinates("lower", implicit.lower);
-  check_coordinates("upper", implicit.upper);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(implicit.upper[axis] - implicit.lower[axis] >= smallest_length)) {
       reject("upper", "must be above lower by at least 1e-100 in every coordinate");

@@ -1,6 +1,5 @@
 #include "core/geometry/mesh/mesh.hpp"
 
-#include "core/geometry/checks.hpp"
 #include "core/geometry/mesh/met_triangles.hpp"
 
 namespace crt::core {
@@ -30,10 +29,6 @@ Surface MeshShape::surface(std::uint32_t face) const {
 const FacetAttributes* facet_attributes(const Primitive& primitive) {
   const auto* mesh = std::get_if<Mesh>(&primitive);
   return mesh == nullptr ? nullptr : mesh->triangles->attributes();
-}
-
-void validate(const Mesh& mesh) {
-  if (!mesh.triangles) reject("triangles", "must be given (see mesh_triangles)");
 }
 
 bool is_solid(const Mesh& mesh) {

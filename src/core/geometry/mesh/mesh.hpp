@@ -63,7 +63,6 @@ class MeshShape final : public Shape {
 /// Returns what the facets of a primitive have beyond what rays meet, or null.
 const FacetAttributes* facet_attributes(const Primitive& primitive);
 
-void validate(const Mesh& mesh);
 bool is_solid(const Mesh& mesh);
 std::unique_ptr<const Shape> make_shape(const Mesh& mesh);
 std::unique_ptr<const ExactShape> make_exact_shape(const Mesh& mesh);

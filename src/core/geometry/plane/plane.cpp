@@ -2,8 +2,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/geometry/checks.hpp"
-
 namespace crt::core {
 
 PlaneShape::PlaneShape(const Plane& plane)
@@ -52,11 +50,6 @@ void PlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, st
   if (!with_uv) return;
   point.u = dot(relative, broadcast<Real>(axes_.u));
   point.v = dot(relative, broadcast<Real>(axes_.v));
-}
-
-void validate(const Plane& plane) {
-  check_direction("normal", plane.normal);
-  check_coordinates("position", plane.position);
 }
 
 std::unique_ptr<const Shape> make_shape(const Plane& plane) {

@@ -37,7 +37,6 @@ class PlaneShape final : public ShapeOfSpans<PlaneShape> {
   PlaneAxes axes_;
 };
 
-void validate(const Plane& plane);
 inline bool is_solid(const Plane&) {
   return true;
 }

@@ -183,7 +183,6 @@ void validate(const Revolution& revolution) {
                                  revolution.angle)
                         .c_str());
   }
-  if (!revolution.profile) reject("profile", "must be given (see make_profile)");
   const Profile& profile = *revolution.profile;
   const Profile::Piece* piece = profile.pieces().data();
   for (std::size_t i = 0; i < profile.contours().size(); ++i) {

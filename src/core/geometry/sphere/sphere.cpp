@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "core/geometry/angles.hpp"
-#include "core/geometry/checks.hpp"
 #include "core/geometry/clipped_span.hpp"
 
 namespace crt::core {
@@ -106,11 +105,6 @@ void SphereShape::points_on_each(const std::array<const Shape*, lane_count>& sph
 
 Surface SphereShape::surface(std::uint32_t) const {
   return {.kind = SurfaceKind::sphere, .position = center_ + Vec3(0.0), .sizes = {radius_, 0}};
-}
-
-void validate(const Sphere& sphere) {
-  check_coordinates("center", sphere.center);
-  check_radius("radius", sphere.radius);
 }
 
 std::unique_ptr<const Shape> make_shape(const Sphere& sphere) {

@@ -139,7 +139,6 @@ class SphereShape final : public ShapeOfSpans<SphereShape> {
   double unit_;  ///< a power of two near the radius
 };
 
-void validate(const Sphere& sphere);
 inline bool is_solid(const Sphere&) {
   return true;
 }

@@ -2,7 +2,6 @@
 
 #include <numbers>
 
-#include "core/geometry/checks.hpp"
 #include "core/geometry/disc/disc.hpp"
 #include "core/geometry/torus/spans.hpp"
 
@@ -192,13 +191,6 @@ Surface TorusShape::surface(std::uint32_t) const {
           .position = center_,
           .direction = canonical_axis(frame_.along),
           .sizes = {radius_, thickness_}};
-}
-
-void validate(const Torus& torus) {
-  check_coordinates("center", torus.center);
-  check_direction("axis", torus.axis);
-  check_radius("radius", torus.radius);
-  check_radius("thickness", torus.thickness);
 }
 
 std::unique_ptr<const Shape> make_shape(const Torus& torus) {

@@ -109,7 +109,6 @@ class TorusShape final : public ShapeOfSpans<TorusShape> {
   double tube_;  ///< r in units
 };
 
-void validate(const Torus& torus);
 inline bool is_solid(const Torus&) {
   return true;
 }

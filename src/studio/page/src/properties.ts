@@ -5,7 +5,7 @@ import {apertureSpots} from './aperture';
 import {numberText, stringText, vectorText} from './numbers';
 import type {Attribute, AttributeDescription, ObjectDescription, TreeNode} from './protocol';
 import {markdown} from './markdown';
-import {choices, ranges} from './property_ranges';
+import {ranges} from './property_ranges';
 
 export interface SheetHost {
   /** Is called before the edits of a gesture. */
@@ -24,7 +24,7 @@ const ballMilliseconds = 100;
 
 export class PropertySheet {
   /** For tests: what is known of attributes beside what the server says. */
-  static readonly known = {choices, ranges};
+  static readonly known = {ranges};
   readonly element = document.createElement('div');
   private objects = new Map<string, ObjectDescription>();
   private node: TreeNode | null = null;
@@ -151,7 +151,7 @@ export class PropertySheet {
         return [box];
       }
       case 'string': {
-        const texts = choices[`${this.node!.name}.${attribute.name}`];
+        const texts = this.choices(attribute.name);
         if (texts?.includes(attribute.text ?? '')) return this.list(attribute, texts);
         const field = this.input('text', attribute.name);
         field.value = attribute.text ?? '';
@@ -171,6 +171,12 @@ export class PropertySheet {
         return [value];
       }
     }
+  }
+
+  /** Returns the texts that an attribute takes, if it takes only some. */
+  private choices(name: string): string[] | undefined {
+    const attributes = this.objects.get(this.node!.name)?.attributes;
+    return attributes?.find((attribute) => attribute.name === name)?.choices;
   }
 
   /** Makes a list of texts, and shows the lens if they are its shapes. */

@@ -1,5 +1,5 @@
-// Within which numbers sliders go, and which texts there are to choose from. A slider goes through
-// what is usual: the field beside it takes more.
+// Within which numbers sliders go. A slider goes through what is usual: the field beside it takes
+// more.
 
 export interface Range {
   low: number;
@@ -36,18 +36,4 @@ export const ranges: Readonly<Record<string, Range>> = {
   'Settings.dofsamples': {low: 1, high: 64, step: 1},
   'Settings.recursiondepth': {low: 0, high: 16, step: 1},
   'Settings.filterwidth': {low: 1, high: 16, step: 0.5},
-};
-
-const projections = ['pinhole', 'spherical', 'cylindrical', 'orthographic'];
-
-export const choices: Readonly<Record<string, readonly string[]>> = {
-  'Camera.apertureshape': ['circle', 'uniform', 'gaussian', 'triangle', 'square', 'pentagon',
-                           'hexagon', 'octagon', 'line'],
-  'Settings.projection': projections,
-  'Settings.filter': ['box', 'blackmanharris'],
-  'Settings.falloffmodel': ['light', 'path'],
-  'Settings.ambientmodel': ['surface', 'light'],
-  'Settings.precision': ['standard', 'exact'],
-  'Background.projection': ['spherical', 'cylindrical', 'equalarea'],
-  'ImageMap.mapping': ['uv', 'planar', 'cylindrical', 'cubic'],
 };

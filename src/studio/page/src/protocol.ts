@@ -28,6 +28,7 @@ export interface AttributeDescription {
   required: boolean;
   default: string;
   about: string;
+  choices?: string[];
 }
 
 export interface ObjectDescription {

@@ -233,7 +233,11 @@ withPage('numbers have sliders, texts lists, and materials balls', async ({page}
 withPage('all that there is to choose from is right', async ({page}) => {
   // Each text of a list and each end of a slider is taken by the language.
   const {objects} = await page.evaluate(() => ({objects: [...studio.sheet.objects.values()]}));
-  const {choices, ranges} = await page.evaluate(() => studio.sheet.constructor.known);
+  const {ranges} = await page.evaluate(() => studio.sheet.constructor.known);
+  const choices = Object.fromEntries(objects.flatMap((object) => object.attributes
+    .filter((attribute) => attribute.choices)
+    .map((attribute) => [`${object.name}.${attribute.name}`, attribute.choices])));
+  assert.ok(Object.keys(choices).length >= 8);
   const attributeOf = (path) => {
     const [object, name] = path.split('.');
     return objects.find((o) => o.name === object)?.attributes.find((a) => a.name === name);
