@@ -280,13 +280,11 @@ TEST_CASE("the empty entity is what the empty set is") {
     CHECK(same.shared_node() == ball.shared_node());
   }
   CHECK((disc + nothing).shared_node() == disc.shared_node());
-  const Entity bitten =
-      csg_difference(ball, std::array{nothing, Entity(Box{}), nothing});
+  const Entity bitten = csg_difference(ball, std::array{nothing, Entity(Box{}), nothing});
   CHECK(bitten.primitive_count() == 2);
-  for (const Entity& empty :
-       {ball ^ nothing, nothing ^ ball, nothing - ball, nothing + nothing,
-        nothing - nothing, nothing.transformed(translate({1, 2, 3})), nothing.with_id(7),
-        nothing.with_material(Material{})}) {
+  for (const Entity& empty : {ball ^ nothing, nothing ^ ball, nothing - ball, nothing + nothing,
+                              nothing - nothing, nothing.transformed(translate({1, 2, 3})),
+                              nothing.with_id(7), nothing.with_material(Material{})}) {
     CHECK(empty.is_empty());
   }
   CHECK_FALSE(ball.is_empty());

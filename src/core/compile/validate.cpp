@@ -203,6 +203,8 @@ void validate(const Camera& camera) {
   check_fields(camera);
   if (camera.fov == std::numbers::pi && camera.projection != Projection::spherical)
     reject("fov", "must be less than half a turn (180 degrees, pi)");
+  if (camera.aperture > 0 && camera.lens_radius > 0)
+    reject("lens_radius", "must be 0 where there is an aperture: both say how large the lens is");
 }
 
 void validate(const Background& background) {

@@ -41,10 +41,10 @@ class Profile {
     Vec3 from;
     Vec3 to;
     std::uint32_t arc = core::invalid_index;  ///< the arc whose chord it is
-    std::uint32_t first = 0;            ///< the first piece on the same straight line
-    bool turned = false;                ///< whether that one has the opposite direction
-    double share_from = 0;              ///< of the contour's length before the piece
-    double share_to = 1;                ///< and at its end
+    std::uint32_t first = 0;                  ///< the first piece on the same straight line
+    bool turned = false;                      ///< whether that one has the opposite direction
+    double share_from = 0;                    ///< of the contour's length before the piece
+    double share_to = 1;                      ///< and at its end
   };
 
   struct Arc {
