@@ -68,7 +68,7 @@ inline std::optional<NoSize> give_own_size(Cylinder& cylinder) {
 }
 
 inline std::optional<NoSize> give_own_size(Cone& cone) {
-  const auto height = size_given(cone.from, cone.to);
+  auto height = size_given(cone.from, cone.to);
   if (cone.radius == 0 && cone.radius2 > 0) {
     // Its tip is where other cones have their base.
     std::swap(cone.from, cone.to);

@@ -36,8 +36,9 @@ std::span<const schema::Name> words_of() {
 
 template <class Object, class Field>
 AttributeType attribute(std::string_view name, Field Object::*field, std::string default_text) {
+  const bool is_required = default_text.empty();
   return {.name = name,
-          .required = default_text.empty(),
+          .required = is_required,
           .type = type_text(static_cast<const Field*>(nullptr)),
           .default_text = std::move(default_text),
           .choices = words_of<Field>(),

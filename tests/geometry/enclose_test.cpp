@@ -364,7 +364,9 @@ TEST_CASE("a plane is crossed where its enclosure says") {
       REQUIRE_FALSE(crossing.t - crossing.error < enclosed.from);
       REQUIRE_FALSE(crossing.t + crossing.error > enclosed.to);
     }
-    check_decision(crossings, ray, decide(enclosed, line, ray.t_max), of_rays);
+    Enclosure<double> part;
+    enclose(EnclosedPlane{position, normal}, line, true, part);
+    check_decision(crossings, ray, decide(part, line, ray.t_max, true), of_rays);
   });
   // Lines along the plane are among them, of which nothing is said.
   CHECK(counts.rejected > counts.missing * 3 / 4);

@@ -257,7 +257,7 @@ void RayQueries::intersect(std::span<const Ray> rays, std::span<std::optional<Hi
 }
 
 void RayQueries::intersect(std::span<const Ray> rays, std::span<PlainHit> hits) {
-  if (rays.size() == 1 && hits.size() >= 1) {
+  if (rays.size() == 1 && !hits.empty()) {
     hits[0] = core::plain(intersect(rays[0]));
   } else {
     state_->intersect({rays}, hits);

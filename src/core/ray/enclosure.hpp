@@ -129,13 +129,6 @@ template <class Real>
   decision.accepted = part.is_met() && (entry.counts(line) || exit.counts(line));
   return decision;
 }
-template <class Real>
-auto decide(const EnclosedCrossing<Real>& crossing, const FilterLine<Real>& line,
-            const Real& limit) {
-  return Decision<MaskOf<Real>>{
-      .rejected = crossing.from > finite(limit) || crossing.to < line.begin,
-      .accepted = crossing.counts(line)};
-}
 
 /// A relative error of 512 roundings. It is far more than what the sums of a primitive's enclose()
 /// are off by and the bounds on the errors of exact crossings together.
