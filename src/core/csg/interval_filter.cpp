@@ -27,17 +27,17 @@ IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> 
   if (!program.paths.empty()) return;
   std::vector<EnclosedLeaf> enclosed_leaves;
   enclosed_leaves.reserve(leaves.size());
+  // What is enclosed vaguely, or at the cost of solving for it, rarely leaves one crossing to be
+  // solved. So a filter pays where rays mostly pass such leaves by.
+  constexpr std::size_t leaves_a_vague_one = 8;
   std::size_t vague = 0;
   for (const Leaf& leaf : leaves) {
     auto solid = leaf.shape->placed(*leaf.placement);
     if (solid == nullptr || !leaf.shape->is_convex()) ++vague;
+    if (vague * leaves_a_vague_one > leaves.size()) return;
     if (solid == nullptr) solid = enclosed(leaf);
     enclosed_leaves.push_back({std::move(solid), leaf.complemented});
   }
-  // What is enclosed vaguely, or at the cost of solving for it, rarely leaves one crossing to be
-  // solved. So a filter pays where rays mostly pass such leaves by.
-  constexpr std::size_t leaves_a_vague_one = 8;
-  if (vague * leaves_a_vague_one > leaves.size()) return;
   leaves_ = std::move(enclosed_leaves);
   first_face_ = leaves.front().first_face;
   end_face_ = leaves.back().first_face + leaves.back().face_count;

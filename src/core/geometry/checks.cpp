@@ -10,8 +10,6 @@
 namespace crt::core {
 namespace {
 
-constexpr double largest_length = 1e100;
-
 [[noreturn]] void reject_value(std::string_view argument, std::string_view rule,
                                const Vec3& value) {
   reject(argument, text::format("{} (it is ({}, {}, {}))", rule, value.x, value.y, value.z));
@@ -25,7 +23,7 @@ void check_length(std::string_view argument, double value) {
   if (!std::isfinite(value)) reject_value(argument, "must be finite", value);
   if (!(value > 0)) reject_value(argument, "must be greater than 0", value);
   if (value < smallest_length) reject_value(argument, "must be at least 1e-100", value);
-  if (value > largest_length) reject_value(argument, "must be at most 1e100", value);
+  if (value > schema::largest_length) reject_value(argument, "must be at most 1e100", value);
 }
 
 void check_corner(std::string_view argument, const Vec3& corner, const Vec3& opposite,
@@ -51,7 +49,7 @@ void reject(std::string_view argument, std::string_view rule) {
 void check_coordinates(std::string_view argument, const Vec3& value) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(value[axis])) reject_value(argument, "must be finite", value);
-    if (std::abs(value[axis]) > largest_length) {
+    if (std::abs(value[axis]) > schema::largest_length) {
       reject_value(argument, "must be at most 1e100 in magnitude", value);
     }
   }

@@ -9,14 +9,6 @@ namespace crt::core {
 
 namespace {
 
-LineSpan span_in(const Bounds& box, const FilterLine<double>& line, std::uint32_t /*asked*/) {
-  const auto& [origin, direction] = plain_ray(line);
-  return RaySlabs(origin, direction, line.start_error).span(box);
-}
-LineSpanLanes span_in(const Bounds& box, const FilterLine<Lanes>& lines, std::uint32_t asked) {
-  return RaySlabs::spans(lines, box, asked, lines.start_error);
-}
-
 /// A box in which a solid is somewhere.
 struct EnclosedBounds {
   Bounds box;
@@ -25,7 +17,7 @@ struct EnclosedBounds {
 template <class Real>
 bool enclose(const EnclosedBounds& bounds, const FilterLine<Real>& line, const MaskOf<Real>& asked,
              Enclosure<Real>& part) {
-  const auto span = span_in(bounds.box, line, mask_of(asked));
+  const auto span = RaySlabs::spans(line, bounds.box, mask_of(asked), line.start_error);
   const MaskOf<Real> misses = span.enter > span.leave;
   if (!any(asked && !misses)) return false;
   const Real never = broadcast<Real>(infinity);

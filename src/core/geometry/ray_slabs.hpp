@@ -100,6 +100,14 @@ class RaySlabs {
     return span;
   }
 
+  /// Does so for one line.
+  static LineSpan spans(const FilterLine<double>& line, const Bounds& box, std::uint32_t /*some*/,
+                        double origin_error = 0) {
+    const auto& [origin, direction] = plain_ray(line);
+    if (origin_error == 0) return span(origin, direction, box);
+    return RaySlabs(origin, direction, origin_error).span(box);
+  }
+
   /// Returns the span of a line whose origin is what is meant, with the axes side by side.
   static LineSpan span(const Vec3& origin, const Vec3& direction, const Bounds& box) {
     const auto by_axis = [](const Vec3& v) { return lanes_of(v.x, v.y, v.z, v.z); };

@@ -51,11 +51,11 @@ void bound_csg(const CompiledScene& scene, const SceneObject& object, Proxy& res
     const Leaf& leaf = scene.leaves[program.first_leaf + i];
     if (!program.is_within(i, leaf)) continue;
     const std::optional<BoundingSphere> sphere = leaf.shape->bounding_sphere();
-    if (!sphere || !leaf.placement->exactly_to_world(sphere->center)) continue;
+    if (!sphere) continue;
     constexpr double margin = 1 + 0x1p-20;
     const EnclosedSphere around{sphere->center, sphere->radius * margin};
     const std::optional<EnclosedSphere> placed = around.placed(*leaf.placement);
-    if (!placed || !(placed->radius < smallest)) continue;
+    if (!placed || placed->off > 0 || !(placed->radius < smallest)) continue;
     // Farther from the origin the rounding of where rays start is not small beside that margin.
     constexpr double max_sizes = 0x1p20;
     if (!(largest_component(placed->center) < max_sizes * placed->radius)) continue;

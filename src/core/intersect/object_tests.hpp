@@ -21,14 +21,6 @@ inline const BoundaryTransitions<double>& lane_of(const BoundaryTransitions<doub
   return change;
 }
 
-inline LineSpan spans_in(const Bounds& box, const FilterLine<double>& line, RayMask /*some*/) {
-  const auto& [origin, direction] = plain_ray(line);
-  return RaySlabs::span(origin, direction, box);
-}
-inline LineSpanLanes spans_in(const Bounds& box, const FilterLine<Lanes>& lines, RayMask some) {
-  return RaySlabs::spans(lines, box, some);
-}
-
 /// An ObjectTests tests the rays of a packet against objects. Each ray finds the same in any
 /// packet.
 template <class Real, class Asked>
@@ -191,16 +183,15 @@ class ObjectTests {
       });
     } else {
       const Real reach = first.t + coincidence_tolerance(plain_ray(lines), first.t, first.error);
-      commit(
-          group, first.t, reach, found, [object](std::size_t) { return object; }, write);
+      commit(object, group, first.t, reach, found, write);
     }
   }
 
-  /// Keeps crossings that are the nearest so far, each of object_of(lane). Others may coincide with
-  /// them up to `reach`.
-  template <class ObjectOf, class Write>
-  void commit(std::size_t group, const Real& t, const Real& reach, RayMask found,
-              const ObjectOf& object_of, const Write& write) {
+  /// Keeps crossings with an object that are the nearest so far. Others may coincide with them up
+  /// to `reach`.
+  template <class Write>
+  void commit(std::uint32_t object, std::size_t group, const Real& t, const Real& reach,
+              RayMask found, const Write& write) {
     Real& limits = packet_.limits[group];
     const std::size_t first_ray = group * group_size;
     RayMask best = 0;
@@ -213,7 +204,7 @@ class ObjectTests {
         if (accelerator_.is_at_end(packet_.source.ray(first_ray + lane), hit, work_)) return;
       }
       const bool is_best =
-          Nearest::commit(asked_.hits[first_ray + lane], lane_of(t, lane), 0, object_of(lane),
+          Nearest::commit(asked_.hits[first_ray + lane], lane_of(t, lane), 0, object,
                           lane_of(reach, lane), [&](RayHit& hit) { write(lane, hit); });
       best |= mask_of(is_best) << lane;
     });
@@ -335,7 +326,7 @@ class ObjectTests {
                 nullptr, ends);
       const SpanEnd<Real>& end = into_leaf ? ends.enter : ends.leave;
       const RayMask starting = Packet::lanes(rays_with(packet_.starts.leaves, index), group);
-      const auto span = spans_in(leaf.bounds, lines, alike);
+      const auto span = RaySlabs::spans(lines, leaf.bounds, alike);
       const auto in_span = end.t >= span.enter && end.t <= span.leave;
       resolved = alike & ~starting & mask_of(end.known && in_span);
       work_.csg.events += static_cast<unsigned>(std::popcount(resolved));
