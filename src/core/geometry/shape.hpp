@@ -141,6 +141,9 @@ class Shape {
 
   /// Returns whether span() ever finds anything where a placement puts the shape.
   virtual bool finds_spans(const Placement& /*placement*/) const { return false; }
+  /// Returns whether span() of lines that no transform moves takes about as long as to enclose
+  /// their part in the shape, so that nothing is gained by that before.
+  virtual bool has_quick_spans() const { return false; }
   /// Finds what crossings() finds of each of some lines, to the last bit, where that is plain. The
   /// lines start on no face's surface, or as `starts` says for a shape whose faces are all flat.
   /// The first two are for lines that no transform moves.

@@ -75,6 +75,7 @@ void bound_leaf(const CompiledScene& scene, std::uint32_t index, Proxy& result) 
   result.solid = shape.placed(*leaf.placement);
   if (shape.finds_spans(*leaf.placement) && !leaf.exact) {
     proxy.leaf = &leaf;
+    proxy.has_quick_spans = leaf.placement->is_identity() && shape.has_quick_spans();
     if (result.solid == nullptr) result.solid = place_box(shape, *leaf.placement);
   }
   if (result.solid == nullptr) {

@@ -25,6 +25,7 @@ struct BoundingProxy {
   std::uint32_t leaf_index = invalid_index;  ///< of a lone leaf
   /// The object is merely somewhere within the solid: only what misses that is sure.
   bool is_within = false;
+  bool has_quick_spans = false;  ///< of the leaf
 
   /// Returns whether rays that surely meet the solid meet the object.
   bool is_met_with_solid() const { return solid != nullptr && !is_within; }

@@ -92,10 +92,10 @@ class FilterRays {
     return decision;
   }
 
-  /// Finds the first crossings of some lanes of a group with an object that is a leaf. Their part
-  /// in its solid is known.
+  /// Finds the first crossings of some lanes of a group with an object that is a leaf. `part` is
+  /// theirs in its solid, or null for a leaf with quick spans.
   FirstCrossing<Real> first_crossing(const BoundingProxy& proxy, std::size_t group, RayMask asked,
-                                     const SolidStarts& starts, const Enclosure<Real>& part) const {
+                                     const SolidStarts& starts, const Enclosure<Real>* part) const {
     const auto find = [&](const FaceStarts<Real>* on_faces) {
       return core::first_crossing(*proxy.leaf, lines(group), lanes_of_mask<Real>(asked), on_faces,
                                   part);

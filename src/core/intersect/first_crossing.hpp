@@ -71,21 +71,34 @@ void find_span(const Leaf& leaf, const FilterLine<Real>& line,
   }
 }
 
-/// Finds first crossings of asked lines with a leaf, of which this is known.
+/// Finds first crossings of asked lines with a leaf. `part` is where they are in it, or null for a
+/// leaf with quick spans.
 template <class Real>
 FirstCrossing<Real> first_crossing(const Leaf& leaf, const FilterLine<Real>& line,
                                    const MaskOf<Real>& asked, const FaceStarts<Real>* starts,
-                                   const Enclosure<Real>& part) {
-  const WantedEnds<Real> wanted{
-      .enter = asked && part.enter_from > line.certain_from,
-      .leave = asked && part.enter_to <= line.begin && part.leave_from > line.certain_from};
+                                   const Enclosure<Real>* part) {
   FirstCrossing<Real> first{.unknown = asked};
-  if (!any(wanted.enter || wanted.leave)) return first;
   ShapeSpan<Real> span;
-  find_span(leaf, line, wanted, starts, span);
-  first.entering = wanted.enter && span.enter.known;
-  first.found = first.entering || (wanted.leave && span.leave.known);
-  first.unknown = asked && !first.found && !(wanted.enter && span.misses);
+  if (part != nullptr) {
+    const WantedEnds<Real> wanted{
+        .enter = asked && part->enter_from > line.certain_from,
+        .leave = asked && part->enter_to <= line.begin && part->leave_from > line.certain_from};
+    if (!any(wanted.enter || wanted.leave)) return first;
+    find_span(leaf, line, wanted, starts, span);
+    first.entering = wanted.enter && span.enter.known;
+    first.found = first.entering || (wanted.leave && span.leave.known);
+    first.unknown = asked && !first.found && !(wanted.enter && span.misses);
+  } else {
+    find_span(leaf, line, {.enter = asked, .leave = asked, .only_first = true}, starts, span);
+    const auto& [known_enter, enter, enter_error, enter_face] = span.enter;
+    const auto& [known_leave, leave, leave_error, leave_face] = span.leave;
+    const auto has_entered = known_enter && enter + enter_error <= line.begin;
+    const auto has_left = known_leave && leave + leave_error < line.begin;
+    first.entering = asked && known_enter && enter - enter_error > line.certain_from;
+    first.found = first.entering ||
+                  (asked && has_entered && known_leave && leave - leave_error > line.certain_from);
+    first.unknown = asked && !first.found && !span.misses && !has_left;
+  }
   first.t = select(first.entering, span.enter.t, span.leave.t);
   first.error = select(first.entering, span.enter.error, span.leave.error);
   first.face = select(first.entering, span.enter.face, span.leave.face);

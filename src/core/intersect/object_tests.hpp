@@ -131,6 +131,10 @@ class ObjectTests {
   RayMask test_solid(const BoundingProxy& proxy, RayMask rays) {
     const SolidStarts starts = filter_.starts_on(proxy, rays);
     typename FilterRays<Real>::Parts parts;
+    if (!any_will_do && proxy.has_quick_spans) {
+      return test_starting(proxy, rays & starts.unknown) |
+             test_leaf(proxy, rays & ~starts.left & ~starts.unknown, starts, nullptr);
+    }
     const Decision<RayMask> decision = filter_.decide(proxy, rays, starts, any_will_do, parts);
     RayMask open = rays & ~decision.rejected;
     if constexpr (any_will_do) {
@@ -139,19 +143,23 @@ class ObjectTests {
     }
     if (open == 0 || proxy.leaf == nullptr) return open;
     const RayMask starting = open & starts.unknown;
-    const RayMask left = starting == 0 ? 0 : filter_.left_again(proxy, starting);
-    return (starting & ~left) | test_leaf(proxy, open & ~starting, starts, parts);
+    return test_starting(proxy, starting) | test_leaf(proxy, open & ~starting, starts, &parts);
+  }
+
+  /// Returns which rays that start on a leaf may meet it again.
+  RayMask test_starting(const BoundingProxy& proxy, RayMask rays) const {
+    return rays == 0 ? 0 : rays & ~filter_.left_again(proxy, rays);
   }
 
   /// Tests an object that is a leaf by the leaf's spans. Returns the rays for which these do not
-  /// suffice.
+  /// suffice. `parts` is null for a leaf with quick spans.
   RayMask test_leaf(const BoundingProxy& proxy, RayMask rays, const SolidStarts& starts,
-                    const typename FilterRays<Real>::Parts& parts) {
+                    const typename FilterRays<Real>::Parts* parts) {
     // All are found before any is taken, so that none waits for what is made of another.
     std::array<GroupCrossing, Packet::group_count> crossings;
     Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
-      new (&crossings[group].first)
-          FirstCrossing<Real>(filter_.first_crossing(proxy, group, lanes, starts, parts[group]));
+      new (&crossings[group].first) FirstCrossing<Real>(filter_.first_crossing(
+          proxy, group, lanes, starts, parts == nullptr ? nullptr : &(*parts)[group]));
     });
     RayMask open = 0;
     Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {

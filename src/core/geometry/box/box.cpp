@@ -139,6 +139,19 @@ void BoxShape::write_span(const FilterLine<Real>& line, const WantedEnds<Real>& 
   const Enclosure<Real> part = meetings.enclosure();
   const MaskOf<Real> passes = part.enter_to < part.leave_from;
   span.misses = part.enter_from > part.leave_to;
+  if (wanted.only_first) {
+    const MaskOf<Real> enters = passes && part.enter_from > line.certain_from;
+    const MaskOf<Real> is_inside = passes && part.enter_to <= line.begin;
+    const MaskOf<Real> leaves = is_inside && part.leave_from > line.certain_from;
+    span.misses = span.misses || part.leave_to < line.begin;
+    if (!any(enters || leaves)) return;
+    span.enter = end_in_box(box, meetings, line, enters);
+    span.leave = span.enter;
+    span.leave.known = span.leave.known && leaves;
+    span.enter.known = span.enter.known && (enters || leaves);
+    span.enter.t = select(enters, span.enter.t, broadcast<Real>(-infinity));
+    return;
+  }
   // Mostly each line has one end at most that is asked for.
   span.enter = end_in_box(box, meetings, line, wanted.enter);
   span.leave = any(wanted.enter && wanted.leave) ? end_in_box(box, meetings, line, MaskOf<Real>{})

@@ -23,6 +23,7 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   bool is_solid() const override { return true; }
   std::unique_ptr<const PlacedSolid> placed(const Placement& placement) const override;
   bool finds_spans(const Placement& placement) const override { return placement.is_identity(); }
+  bool has_quick_spans() const override { return true; }
   void span(const FilterLine<double>& line, const WantedEnds<double>& wanted,
             const FaceStarts<double>* starts, ShapeSpan<double>& span) const override {
     write_span(line, wanted, starts, span);

@@ -116,6 +116,7 @@ class SphereShape final : public ShapeOfSpans<SphereShape> {
     return BoundingSphere{center_, radius_};
   }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  bool has_quick_spans() const override { return true; }
   template <class Real, class Ray>
   void write_span(const Ray& ray, const WantedEnds<Real>& wanted, ShapeSpan<Real>& span) const;
   void exit_from_surface(const PlainRay<double>& line, SpanEnd<double>& end) const override;
