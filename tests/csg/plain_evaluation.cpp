@@ -79,7 +79,7 @@ class Plain {
         met.t_low = 0;
       }
       if (met.surface != ray_.start.surface && met.t > ray_.t_min &&
-          met.enter <= core::farthest_start(ray_) &&
+          met.enter <= core::tolerated_start(ray_) &&
           core::is_at_start(leaf, ray_, ray_.start.t_error, object_ray, crossing)) {
         met.t = ray_.t_min;
         met.t_low = 0;

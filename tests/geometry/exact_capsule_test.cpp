@@ -156,11 +156,11 @@ TEST_CASE("exact capsule: if only the first crossing is asked for, it is the sam
         .near = near, .world_origin = near.origin, .world_direction = near.direction};
     core::CrossingList all;
     shape->crossings(ray, all);
-    near.first_above = random.uniform(-2, 2);
+    near.first_wanted_after = random.uniform(-2, 2);
     core::CrossingList first;
     shape->crossings(ray, first);
     REQUIRE(first.size() <= all.size());
-    const bool is_enough = !all.empty() && near.is_first_asked(all[0]);
+    const bool is_enough = !all.empty() && near.is_first_wanted(all[0]);
     if (!is_enough) REQUIRE(first.size() == all.size());
     for (std::size_t k = 0; k < first.size(); ++k) {
       REQUIRE(first[k].t == all[k].t);

@@ -264,15 +264,15 @@ TEST_CASE("what a height field leaves out after the first crossing changes nothi
           return is_exact ? exact->crossings(exact_line, list) : shape->crossings(line, list);
         };
         core::CrossingList all;
-        line.first_above = std::numeric_limits<double>::infinity();
+        line.first_wanted_after = std::numeric_limits<double>::infinity();
         const bool inside = crossings(all);
         core::CrossingList some;
-        line.first_above = random.one_in(3) ? -1e9 : random.uniform(-2, 12);
+        line.first_wanted_after = random.one_in(3) ? -1e9 : random.uniform(-2, 12);
         REQUIRE(crossings(some) == inside);
         REQUIRE(some.size() <= all.size());
         for (std::size_t k = 0; k < some.size(); ++k) REQUIRE(are_alike(some[k], all[k]));
         if (some.size() == all.size()) continue;
-        REQUIRE(line.is_first_asked(some.back()));
+        REQUIRE(line.is_first_wanted(some.back()));
         REQUIRE(some.back().has_rest);
         ++ended;
       }

@@ -172,7 +172,7 @@ TEST_CASE("implicit: the rays that ask for less get the same of it") {
       REQUIRE(cut(part, inside) == (before % 2 == 1));
       REQUIRE(part.size() == all.size() - before);
       for (std::size_t j = 0; j < part.size(); ++j) REQUIRE(part[j].t == all[before + j].t);
-      ray.first_above = ray.begin;
+      ray.first_wanted_after = ray.begin;
       core::CrossingList first;
       REQUIRE(cut(first, shape->crossings(ray, first)) == (before % 2 == 1));
       REQUIRE(first.size() <= part.size());

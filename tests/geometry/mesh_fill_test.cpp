@@ -232,10 +232,10 @@ TEST_CASE("what is left out after the first crossing changes nothing where windi
           return is_exact ? exact->crossings(exact_line, list) : shape->crossings(line, list);
         };
         core::CrossingList all;
-        line.first_above = std::numeric_limits<double>::infinity();
+        line.first_wanted_after = std::numeric_limits<double>::infinity();
         const bool inside = crossings(all);
         core::CrossingList some;
-        line.first_above = random.uniform(-2, 6);
+        line.first_wanted_after = random.uniform(-2, 6);
         REQUIRE(crossings(some) == inside);
         REQUIRE(some.size() <= all.size());
         for (std::size_t k = 0; k < some.size(); ++k) {

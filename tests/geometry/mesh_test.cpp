@@ -210,17 +210,17 @@ TEST_CASE("what is left out after the first crossing that is asked for changes n
           return is_exact ? exact->crossings(exact_line, list) : shape->crossings(line, list);
         };
         core::CrossingList all;
-        line.first_above = std::numeric_limits<double>::infinity();
+        line.first_wanted_after = std::numeric_limits<double>::infinity();
         const bool inside = crossings(all);
         core::CrossingList some;
-        line.first_above = random.one_in(3) ? -1e9 : random.uniform(-2, 12);
+        line.first_wanted_after = random.one_in(3) ? -1e9 : random.uniform(-2, 12);
         REQUIRE(crossings(some) == inside);
         if (!shape->is_solid()) continue;
         REQUIRE(some.size() <= all.size());
         for (std::size_t k = 0; k < some.size(); ++k) REQUIRE(are_alike(some[k], all[k]));
         ++asked;
         if (some.size() == all.size()) continue;
-        REQUIRE(line.is_first_asked(some.back()));
+        REQUIRE(line.is_first_wanted(some.back()));
         REQUIRE(some.back().has_rest);
         ++ended;
       }

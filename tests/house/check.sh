@@ -200,6 +200,7 @@ check_subjects() {
 banned_words=(told are_told leaf_told has_company company_width 'outlines?' Verdict 'judges?'
   'lamps?' 'eye rays?' 'eye-rays?' FirstBalls BallSearch Spine CsgSketch RayBundle small_things
   leaf_tree box_row node_paths going_on go_back users_rays expect_points squared_speed
+  first_above asked_above farthest_start flattest_start is_first_asked
   no_face no_item no_arc Stay Stayed BoundaryChanges ChangeCrossing change_of comes_back goes_into
   EnclosedSolid TypedShape plain_sphere)
 check_words() {

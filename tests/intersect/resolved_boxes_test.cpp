@@ -186,9 +186,17 @@ TEST_CASE("the proxy of a box tells nearly all rays where they first cross it") 
     const BoundingProxy& proxy = proxies.list.front();
     const Decision<RayMask> decision = filter.decide(proxy, 1, {}, false, parts);
     if (decision.rejected != 0) continue;
-    const FirstCrossing<double> crossing = filter.first_crossing(proxy, 0, 1, {}, parts[0]);
+    const FirstCrossing<double> crossing = filter.first_crossing(proxy, 0, 1, {}, &parts[0]);
     unknown += crossing.unknown ? 1 : 0;
     found += crossing.found ? 1 : 0;
+    const FirstCrossing<double> at_once = filter.first_crossing(proxy, 0, 1, {}, nullptr);
+    CHECK(at_once.found == crossing.found);
+    CHECK(at_once.unknown == crossing.unknown);
+    if (!crossing.found) continue;
+    CHECK(at_once.entering == crossing.entering);
+    CHECK(at_once.t == crossing.t);
+    CHECK(at_once.error == crossing.error);
+    CHECK(at_once.face == crossing.face);
   }
   CHECK(unknown == 0);
   CHECK(found > count / 20);

@@ -63,7 +63,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   }
   if (program.tree.has_root())
     put_off(Bvh::Child::node(0), -std::numeric_limits<double>::infinity());
-  open_up_to(farthest_start(ray_));
+  open_up_to(tolerated_start(ray_));
   const auto is_before_start = [&] {
     return !work_.to_come_.empty() && work_.to_come_.front().t <= ray_.t_min;
   };
@@ -192,7 +192,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
     met.entering = crossing.entering;
     // Only fields have more roots. Leaves that share one cross it at the same t, to the bit.
     met.shared = crossing.root < max_roots ? surface.shared : FaceSurface::not_shared;
-    if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= farthest_start(ray_) &&
+    if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= tolerated_start(ray_) &&
         is_at_start(in_place, ray_, ray_.start.t_error, object_ray_, crossing)) {
       met.t = ray_.t_min;
       met.t_low = 0;
@@ -219,7 +219,7 @@ bool CsgEvaluation::gather_piece(std::uint32_t index, const PlacedLeaf& leaf, do
                             [&](const auto& other) { return other.leaf == index; });
   const bool is_first = piece == pieces.end();
   if (is_first) {
-    object_ray_.first_above = std::max(asked_above(farthest_start(ray_)), enter);
+    object_ray_.first_wanted_after = std::max(surely_after(tolerated_start(ray_)), enter);
     pieces.push_back({.leaf = index, .enter = enter});
     piece = pieces.end() - 1;
   } else {
@@ -228,11 +228,11 @@ bool CsgEvaluation::gather_piece(std::uint32_t index, const PlacedLeaf& leaf, do
     if (is_over) return false;
     enter = piece->enter;
     object_ray_.start = {};
-    object_ray_.begin = object_ray_.first_above = piece->after;
+    object_ray_.begin = object_ray_.first_wanted_after = piece->after;
   }
   bool inside = gather_crossings(leaf);
   object_ray_.begin = -infinity;
-  object_ray_.first_above = infinity;
+  object_ray_.first_wanted_after = infinity;
   if (!is_first) {
     // Those that have come already are there again.
     std::erase_if(crossings, [&](const Crossing& crossing) { return crossing.t <= piece->after; });

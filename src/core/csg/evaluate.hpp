@@ -153,10 +153,10 @@ inline bool is_at_start(const PlacedLeaf& leaf, const WorldRay& ray, double star
   const double distance = crossing.t - ray.t_min - crossing.error;
   if (ray.is_input) {
     // Where an error is longer than that, it says nothing of the start.
-    if (distance + crossing.error > flattest_start * start_error) return false;
+    if (distance + crossing.error > start_tolerance(start_error)) return false;
     if (distance <= (errors_at_start - 1) * crossing.error) return true;
   }
-  if (distance > flattest_start * start_error) return false;
+  if (distance > start_tolerance(start_error)) return false;
   return distance <= start_error || is_through_start(leaf, ray, start_error, object_ray, crossing);
 }
 

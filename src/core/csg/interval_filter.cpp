@@ -102,22 +102,22 @@ class IntervalFilter::Search {
     return min(possible_from(near_.node(0), t, value), horizon());
   }
 
-  /// Advances the rays that are going, from a t before which the root surely does not have a value
+  /// Advances the active rays, from a t before which the root surely does not have a value
   /// to where it has it.
-  void advance(bool value, Real t, Mask going) {
+  void advance(bool value, Real t, Mask active) {
     while (true) {
-      const Mask beyond = going && !(t <= lines_.limits());
+      const Mask beyond = active && !(t <= lines_.limits());
       changes_.none = changes_.none || beyond;
-      going = going && !beyond;
-      if (!any(going) || is_too_much()) return;
-      if (any(going && t >= horizon())) {
+      active = active && !beyond;
+      if (!any(active) || is_too_much()) return;
+      if (any(active && t >= horizon())) {
         gather(-infinity);
       } else {
         const Real next = root_possible_from(t, value);
-        const Mask there = going && next == t;
+        const Mask there = active && next == t;
         if (any(there)) {
           const Mask unseen = set_transition(value, t, there);
-          going = (going && !there) || unseen;
+          active = (active && !there) || unseen;
           if (any(unseen)) gather(-infinity);
         }
         t = next;

@@ -39,8 +39,8 @@ struct Crossing {
   std::uint8_t root = 0;
   /// The ray enters the solid; a surface without an inside is met against its normal.
   bool entering = false;
-  /// Crossings after this one were left out, as ObjectRay::first_above allows. It is the last that
-  /// is there, and no other can be in its place. Only meshes and height fields say so.
+  /// Crossings after this one were left out, as ObjectRay::first_wanted_after allows. It is the
+  /// last that is there, and no other can be in its place. Only meshes and height fields say so.
   bool has_rest = false;
 };
 

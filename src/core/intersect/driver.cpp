@@ -23,7 +23,7 @@ struct ExactTests {
   RaySteps& steps;
   const Test& call;
 
-  RayMask going() const { return mask_of(!(ray.t_max <= ray.t_min)); }
+  RayMask active() const { return mask_of(!(ray.t_max <= ray.t_min)); }
   RayMask test(const BoundingProxy& proxy, RayMask /*ray*/) {
     steps.step();
     call(proxy.object);
@@ -72,23 +72,23 @@ template <class Real, class Tests>
   // it.
   constexpr bool planes_last = Tests::from_near;
   for (const BoundingProxy& proxy : unbounded_.list) {
-    if (tests.going() == 0) return;
+    if (tests.active() == 0) return;
     if constexpr (planes_last) {
       if (proxy.is_met_with_solid()) {
         tests.limit_by(proxy);
         continue;
       }
     }
-    tests.test(proxy, tests.going());
+    tests.test(proxy, tests.active());
   }
-  if (const RayMask open = tests.going(); open != 0) {
-    visit_boxes<Tests::from_near>(packet, open, [&](std::uint32_t box, RayMask rays) {
+  if (const RayMask pending = tests.active(); pending != 0) {
+    visit_boxes<Tests::from_near>(packet, pending, [&](std::uint32_t box, RayMask rays) {
       return tests.test(bounded_.list[box], rays);
     });
   }
   if (!planes_last) return;
   for (const BoundingProxy& proxy : unbounded_.list) {
-    if (proxy.is_met_with_solid()) tests.test(proxy, tests.going());
+    if (proxy.is_met_with_solid()) tests.test(proxy, tests.active());
   }
 }
 
@@ -100,7 +100,7 @@ template <class Real, class Asked>
   RayPacketOf<Real> packet(rays, starts, some);
   ObjectTests<Real, Asked> tests(*this, packet, some, asked, work);
   traverse(packet, tests);
-  return tests.going();
+  return tests.active();
 }
 
 template <class Test>
@@ -265,10 +265,11 @@ void Accelerator::nearest_each(const RayBatch& rays, RayMask some,
                                std::span<RayHit, packet_size> hits, Packets packets,
                                RayWorkspace& work) const {
   for_each_ray(some, [&](std::size_t i) { hits[i] = {}; });
-  const RayMask open = some & ~leave_isolated(rays, some, hits, work);
-  if (pay_together(rays, open, packets)) return find_nearest<Lanes>(rays, open, hits, work);
-  for_each_ray(
-      open, [&](std::size_t i) { find_nearest<double>(rays.ray(i), 1, hits.subspan(i, 1), work); });
+  const RayMask pending = some & ~leave_isolated(rays, some, hits, work);
+  if (pay_together(rays, pending, packets)) return find_nearest<Lanes>(rays, pending, hits, work);
+  for_each_ray(pending, [&](std::size_t i) {
+    find_nearest<double>(rays.ray(i), 1, hits.subspan(i, 1), work);
+  });
 }
 
 RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,

@@ -54,7 +54,7 @@ auto after_start(const FilterLine<Real>& line, const Real& t, const Real& error)
   const Real distance = t - line.begin - error;
   const Mask after = t > line.begin;
   const Mask clear =
-      distance > flattest_start * line.start_error && t - line.begin > errors_at_start * error;
+      distance > start_tolerance(line.start_error) && t - line.begin > errors_at_start * error;
   return AfterStart<Mask>{.surely = after && clear, .unknown = after && !clear};
 }
 

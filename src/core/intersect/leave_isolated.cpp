@@ -22,9 +22,10 @@ RayMask Accelerator::leave_isolated(const BoundingProxy& solid, const Rays<Real>
     });
     work.intersection_tests += static_cast<unsigned>(std::popcount(done));
   }
-  const RayMask open = lanes & ~done;
-  return open == 0 ? done
-                   : done | leave_by_tests<Real>(solid, rays, open << first, hits, work) >> first;
+  const RayMask pending = lanes & ~done;
+  return pending == 0
+             ? done
+             : done | leave_by_tests<Real>(solid, rays, pending << first, hits, work) >> first;
 }
 
 RayMask Accelerator::leave_isolated(const WorldRay& ray, RayHit& hit, RayWorkspace& work) const {
@@ -52,10 +53,11 @@ RayMask Accelerator::leave_isolated(const RayBatch& rays, RayMask some,
     });
     while (to_come != 0) {
       place = places[first_ray(to_come)];
-      RayMask alike = 0;
-      for_each_ray(to_come, [&](std::size_t i) { alike |= mask_of(places[i] == place) << i; });
-      to_come &= ~alike;
-      done |= leave_isolated<Lanes>(bounded_.list[place], rays, group, alike, hits, work) << first;
+      RayMask same_place = 0;
+      for_each_ray(to_come, [&](std::size_t i) { same_place |= mask_of(places[i] == place) << i; });
+      to_come &= ~same_place;
+      done |= leave_isolated<Lanes>(bounded_.list[place], rays, group, same_place, hits, work)
+              << first;
     }
   });
   return done;

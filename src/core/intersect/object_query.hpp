@@ -112,7 +112,7 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
   crossings.clear();
   object_ray.begin = ray.t_min;
   if (Kind::takes_one)
-    object_ray.first_above = asked_above(farthest_start(ray.t_min, tested.start_error));
+    object_ray.first_wanted_after = surely_after(tolerated_start(ray.t_min, tested.start_error));
   bool inside = leaf_crossings(leaf, ray, object_ray, crossings, work_->leaf_escalations);
   // Another object's surface may coincide with the one that the ray starts on: then it is at the
   // start as well.

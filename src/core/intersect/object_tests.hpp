@@ -31,19 +31,19 @@ class ObjectTests {
   /// To find the nearest crossing, objects are to come from near to far.
   static constexpr bool from_near = !any_will_do;
 
-  ObjectTests(const Accelerator& accelerator, Packet& packet, RayMask going, const Asked& asked,
+  ObjectTests(const Accelerator& accelerator, Packet& packet, RayMask active, const Asked& asked,
               RayWorkspace& work)
       : accelerator_(accelerator),
         packet_(packet),
         filter_(packet),
-        going_(going),
+        active_(active),
         asked_(asked),
         work_(work) {
     work.csg.steps.begin_ray();
   }
 
   /// Returns the rays that have not found all they ask for.
-  RayMask going() const { return going_; }
+  RayMask active() const { return active_; }
 
   /// Tests some rays against an object. Returns the rays whose limits it changed.
   RayMask test(const BoundingProxy& proxy, RayMask rays) {
@@ -54,22 +54,23 @@ class ObjectTests {
     if constexpr (Asked::gathers) {
       if (asked_.is_gathered(proxy.object)) return gather(proxy, rays);
     }
-    RayMask open = proxy.solid == nullptr ? rays : test_solid(proxy, rays);
-    if (open == 0) return changed_;  // what follows looks farther away in memory
+    RayMask pending = proxy.solid == nullptr ? rays : test_solid(proxy, rays);
+    if (pending == 0) return changed_;  // what follows looks farther away in memory
     if (const IntervalFilter* filter = accelerator_.filter(proxy.object)) {
-      Packet::for_each_group(std::exchange(open, 0), [&](std::size_t group, RayMask lanes) {
-        open |= test_transitions(proxy.object, *filter, group, lanes) << (group * group_size);
+      Packet::for_each_group(std::exchange(pending, 0), [&](std::size_t group, RayMask lanes) {
+        pending |= test_transitions(proxy.object, *filter, group, lanes) << (group * group_size);
       });
     }
-    for_each_ray(
-        open, [&](std::size_t ray) { ask(ray, [&](auto& query) { query.test(proxy.object); }); });
+    for_each_ray(pending, [&](std::size_t ray) {
+      ask(ray, [&](auto& query) { query.test(proxy.object); });
+    });
     return changed_;
   }
 
   /// Lets an object that rays surely meet bound what else matters to them.
   void limit_by(const BoundingProxy& proxy) {
-    step(going_);
-    const RayMask rays = going_ & ~filter_.left(proxy);
+    step(active_);
+    const RayMask rays = active_ & ~filter_.left(proxy);
     typename FilterRays<Real>::Parts parts;
     const RayMask accepted =
         filter_.decide(proxy, rays, filter_.starts_on(proxy, rays), true, parts).accepted;
@@ -82,7 +83,7 @@ class ObjectTests {
       const Real reach = last + coincidence_tolerance(plain_ray(lines), last, Real{});
       Real& limits = packet_.limits[group];
       limits = select(lanes_of_mask<Real>(lanes) && reach < limits, reach, limits);
-      going_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * group_size));
+      active_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * group_size));
     });
   }
 
@@ -102,7 +103,7 @@ class ObjectTests {
   /// Ends rays that have found what they ask for.
   void settle(RayMask rays) {
     changed_ |= rays;
-    going_ &= ~rays;
+    active_ &= ~rays;
     Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
       Real& limits = packet_.limits[group];
       limits = select(lanes_of_mask<Real>(lanes), broadcast<Real>(-infinity), limits);
@@ -123,7 +124,7 @@ class ObjectTests {
     packet_.set_limit(number, query.limit());
     const RayMask bit = RayMask{1} << number;
     changed_ |= bit;
-    if (query.limit() <= ray.t_min) going_ &= ~bit;
+    if (query.limit() <= ray.t_min) active_ &= ~bit;
   }
 
   /// Tests an object by its solid, and by the spans of a leaf that it may be. Returns the rays that
@@ -136,14 +137,14 @@ class ObjectTests {
              test_leaf(proxy, rays & ~starts.left & ~starts.unknown, starts, nullptr);
     }
     const Decision<RayMask> decision = filter_.decide(proxy, rays, starts, any_will_do, parts);
-    RayMask open = rays & ~decision.rejected;
+    RayMask pending = rays & ~decision.rejected;
     if constexpr (any_will_do) {
-      open &= ~decision.accepted;
+      pending &= ~decision.accepted;
       settle(decision.accepted);
     }
-    if (open == 0 || proxy.leaf == nullptr) return open;
-    const RayMask starting = open & starts.unknown;
-    return test_starting(proxy, starting) | test_leaf(proxy, open & ~starting, starts, &parts);
+    if (pending == 0 || proxy.leaf == nullptr) return pending;
+    const RayMask starting = pending & starts.unknown;
+    return test_starting(proxy, starting) | test_leaf(proxy, pending & ~starting, starts, &parts);
   }
 
   /// Returns which rays that start on a leaf may meet it again.
@@ -161,18 +162,18 @@ class ObjectTests {
       new (&crossings[group].first) FirstCrossing<Real>(filter_.first_crossing(
           proxy, group, lanes, starts, parts == nullptr ? nullptr : &(*parts)[group]));
     });
-    RayMask open = 0;
+    RayMask pending = 0;
     Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
       const FirstCrossing<Real>& first = crossings[group].first;
       const RayMask known = lanes & ~mask_of(first.unknown);
-      open |= (lanes & ~known) << (group * group_size);
+      pending |= (lanes & ~known) << (group * group_size);
       count_tests(known);
       const RayMask found = known & mask_of(first.found && first.t <= packet_.limits[group]);
       if (found == 0) return;
       take(proxy.object, group, first, found,
            [&](std::size_t lane, RayHit& hit) { write_first(proxy, lane_of(first, lane), hit); });
     });
-    return open;
+    return pending;
   }
 
   /// Takes crossings with an object before the limits; write(lane, hit) writes one where it stays.
@@ -224,18 +225,18 @@ class ObjectTests {
 
   /// Gathers all crossings with an object, of which not all is opaque.
   RayMask gather(const BoundingProxy& proxy, RayMask rays) {
-    RayMask open = rays;
+    RayMask pending = rays;
     if (proxy.solid != nullptr) {
       const SolidStarts starts = filter_.starts_on(proxy, rays);
       typename FilterRays<Real>::Parts parts;
-      open &= ~filter_.decide(proxy, rays, starts, false, parts).rejected;
+      pending &= ~filter_.decide(proxy, rays, starts, false, parts).rejected;
       if (proxy.leaf != nullptr && proxy.leaf->shape->is_convex()) {
-        Packet::for_each_group(open & ~starts.some, [&](std::size_t group, RayMask lanes) {
-          open &= ~(gather_ends(proxy, group, lanes) << (group * group_size));
+        Packet::for_each_group(pending & ~starts.some, [&](std::size_t group, RayMask lanes) {
+          pending &= ~(gather_ends(proxy, group, lanes) << (group * group_size));
         });
       }
     }
-    for_each_ray(open, [&](std::size_t number) {
+    for_each_ray(pending, [&](std::size_t number) {
       const WorldRay& ray = packet_.source.ray(number);
       All query(accelerator_, ray, work_, &asked_.opacity, asked_.found[number]);
       begin_steps();
@@ -295,7 +296,7 @@ class ObjectTests {
         scene.programs[solid.program], scene.leaves_of(solid), scene.face_surfaces,
         work_.near_leaves, work_.csg.steps);
     RayMask to_come = asked & mask_of(changes.one);
-    RayMask open = asked & ~mask_of(changes.one || changes.none);
+    RayMask pending = asked & ~mask_of(changes.one || changes.none);
     if constexpr (any_will_do) {
       const RayMask surely = to_come & mask_of(changes.to < lines.certain_to);
       settle(surely << (group * group_size));
@@ -305,28 +306,29 @@ class ObjectTests {
       const std::size_t first = first_ray(to_come);
       const RayMask into_leaf = mask_of(changes.into_leaf);
       const RayMask same_way = (into_leaf >> first & 1u) != 0 ? into_leaf : ~into_leaf;
-      const RayMask alike = to_come & same_way &
-                            mask_of(changes.leaf == broadcast<Real>(lane_of(changes.leaf, first)));
-      to_come &= ~alike;
-      open |= take_transitions(object, group, alike, changes);
+      const RayMask same_leaf =
+          to_come & same_way &
+          mask_of(changes.leaf == broadcast<Real>(lane_of(changes.leaf, first)));
+      to_come &= ~same_leaf;
+      pending |= take_transitions(object, group, same_leaf, changes);
     }
-    count_tests(asked & ~open);
-    return open;
+    count_tests(asked & ~pending);
+    return pending;
   }
 
   /// Takes changes of one leaf, all into it or all out of it. Returns where none has been found.
-  RayMask take_transitions(std::uint32_t object, std::size_t group, RayMask alike,
+  RayMask take_transitions(std::uint32_t object, std::size_t group, RayMask same_leaf,
                            const BoundaryTransitions<Real>& changes) {
     const CompiledScene& scene = accelerator_.compiled();
     const FilterLine<Real>& lines = packet_.groups[group];
-    const std::size_t first = first_ray(alike);
+    const std::size_t first = first_ray(same_leaf);
     const auto number = static_cast<std::uint32_t>(lane_of(changes.leaf, first));
     const std::uint32_t index = scene.objects[object].first_leaf + number;
     const Leaf& leaf = scene.leaves[index];
     RayMask resolved = 0;
     if (!leaf.exact) {
       const bool into_leaf = lane_of(changes.into_leaf, first);
-      const auto wanted = lanes_of_mask<Real>(alike);
+      const auto wanted = lanes_of_mask<Real>(same_leaf);
       ShapeSpan<Real> ends;
       find_span(leaf, lines,
                 {.enter = into_leaf ? wanted : MaskOf<Real>{},
@@ -334,9 +336,9 @@ class ObjectTests {
                 nullptr, ends);
       const SpanEnd<Real>& end = into_leaf ? ends.enter : ends.leave;
       const RayMask starting = Packet::lanes(rays_with(packet_.starts.leaves, index), group);
-      const auto span = RaySlabs::spans(lines, leaf.bounds, alike);
+      const auto span = RaySlabs::spans(lines, leaf.bounds, same_leaf);
       const auto in_span = end.t >= span.enter && end.t <= span.leave;
-      resolved = alike & ~starting & mask_of(end.known && in_span);
+      resolved = same_leaf & ~starting & mask_of(end.known && in_span);
       work_.csg.events += static_cast<unsigned>(std::popcount(resolved));
       const FirstCrossing<Real> crossing{.t = end.t, .error = end.error};
       take(object, group, crossing, resolved, [&](std::size_t lane, RayHit& hit) {
@@ -351,13 +353,13 @@ class ObjectTests {
                .entering = lane_of(changes.into_object, lane)};
       });
     }
-    RayMask open = 0;
-    for_each_ray(alike & ~resolved, [&](std::size_t lane) {
+    RayMask pending = 0;
+    for_each_ray(same_leaf & ~resolved, [&](std::size_t lane) {
       ask(group * group_size + lane, [&](auto& query) {
-        if (!query.test_transition(object, lane_of(changes, lane))) open |= RayMask{1} << lane;
+        if (!query.test_transition(object, lane_of(changes, lane))) pending |= RayMask{1} << lane;
       });
     });
-    return open;
+    return pending;
   }
 
   // A single ray counts every step. A packet counts its rays' steps only where there are many.
@@ -391,7 +393,7 @@ class ObjectTests {
   const Accelerator& accelerator_;
   Packet& packet_;
   FilterRays<Real> filter_;
-  RayMask going_;
+  RayMask active_;
   RayMask changed_ = 0;
   const Asked& asked_;
   RayWorkspace& work_;

@@ -9,8 +9,8 @@
 
 namespace crt::core {
 
-/// AlikeRays are rays whose hits are alike: all from the same side and of one material.
-struct AlikeRays {
+/// SameSideRays are rays whose hits are alike: all from the same side and of one material.
+struct SameSideRays {
   RayMask on_face = 0;    ///< on the face that the first of them hits
   RayMask on_others = 0;  ///< on other shapes; see PreparedData::on_shapes_like()
 
@@ -27,7 +27,7 @@ class HitFaces {
         entering_([&](auto lane) { return std::uint64_t{hits[lane].entering}; }) {}
 
   /// Returns those of some rays that are like the first of them.
-  AlikeRays alike(RayMask some) const {
+  SameSideRays on_same_side(RayMask some) const {
     const RayHit& first = hits_[first_ray(some)];
     const RayMask on_face =
         mask_of(faces_ == of(first) && entering_ == std::uint64_t{first.entering}) & some;
@@ -37,13 +37,12 @@ class HitFaces {
 
   /// Computes the points in object space where alike rays hit, each at its t. For other rays the
   /// point means nothing.
-  void object_points(const AlikeRays& alike, const RayLanes& lines, const Lanes& t, bool with_uv,
+  void object_points(const SameSideRays& same, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
-    if (alike.on_others == 0) {
-      data_.object_points(hits_[first_ray(alike.on_face)], alike.on_face, lines, t, with_uv,
-                          points);
+    if (same.on_others == 0) {
+      data_.object_points(hits_[first_ray(same.on_face)], same.on_face, lines, t, with_uv, points);
     } else {
-      data_.points_on_shapes(hits_, alike.all(), lines, t, with_uv, points);
+      data_.points_on_shapes(hits_, same.all(), lines, t, with_uv, points);
     }
   }
 

@@ -217,13 +217,13 @@ class QueryPacket {
     const Lanes t = lanes_of(group[0].t, group[1].t, group[2].t, group[3].t);
     const HitFaces faces(data_, group);
     for (RayMask to_come = found_; to_come != 0;) {
-      const AlikeRays alike = faces.alike(to_come);
+      const SameSideRays same = faces.on_same_side(to_come);
       SurfacePointLanes& points = to_come == found_ ? points_ : others_;
-      faces.object_points(alike, lines, t, true, points);
+      faces.object_points(same, lines, t, true, points);
       data_.take_to_world(group[first_ray(to_come)], points);
-      to_come &= ~alike.all();
+      to_come &= ~same.all();
       if (&points == &points_) continue;
-      const LaneMask lanes = lanes_with(alike.all());
+      const LaneMask lanes = lanes_with(same.all());
       points_.position = select(lanes, points.position, points_.position);
       points_.normal = select(lanes, points.normal, points_.normal);
       points_.u = select(lanes, points.u, points_.u);

@@ -45,7 +45,7 @@ void set_line(const PlainRay<Real>& ray, const Real& begin, const Real& start_er
   for (std::size_t axis = 0; axis < 3; ++axis) line.inverse[axis] = 1.0 / line.direction[axis];
   line.begin = begin;
   line.start_error = start_error + size_error;
-  line.certain_from = farthest_start(begin, line.start_error);
+  line.certain_from = tolerated_start(begin, line.start_error);
   line.certain_to = finite_end(certain_end(end, end_error, size_error));
 }
 

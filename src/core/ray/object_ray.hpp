@@ -64,15 +64,15 @@ struct ObjectRay {
   /// with an error bound that says so. They may also be left out, if what is returned says whether
   /// the line is inside before the first that is not.
   double begin = -std::numeric_limits<double>::infinity();
-  /// Crossings after the first one for which is_first_asked() is true may be left out. Crossings
+  /// Crossings after the first one for which is_first_wanted() is true may be left out. Crossings
   /// nearer than this to where the ray begins may be at its start and not count.
-  double first_above = std::numeric_limits<double>::infinity();
+  double first_wanted_after = std::numeric_limits<double>::infinity();
 
-  /// Returns whether a crossing is surely ahead of `first_above`, whatever its error and that of
-  /// the start.
+  /// Returns whether a crossing is surely ahead of `first_wanted_after`, whatever its error and
+  /// that of the start.
   template <class Crossing>
-  bool is_first_asked(const Crossing& crossing) const {
-    return crossing.t - errors_at_start * crossing.error > first_above;
+  bool is_first_wanted(const Crossing& crossing) const {
+    return crossing.t - errors_at_start * crossing.error > first_wanted_after;
   }
 
   /// Returns the point at t + t_low relative to `center`. Subtracting the center early keeps

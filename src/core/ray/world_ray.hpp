@@ -89,27 +89,31 @@ inline PlainRay<double> plain_ray(const WorldRay& ray) {
   return {.origin = ray.origin, .direction = ray.direction};
 }
 
-/// A surface through the start may be met as far from the start as this many times the rounding of
-/// the start. The flatter the ray meets it, the farther that is.
-inline constexpr double flattest_start = 0x1p24;
-
-/// Returns up to where surfaces through the start may be met.
+/// Returns how far from the start a surface through it may be met, of which this is the rounding.
+/// The flatter the ray meets it, the farther that is.
 template <class Real>
-Real farthest_start(const Real& begin, const Real& start_error) {
-  return begin + flattest_start * start_error;
-}
-inline double farthest_start(const WorldRay& ray) {
-  return farthest_start(ray.t_min, ray.start.t_error + ray.max_size_error);
+Real start_tolerance(const Real& start_error) {
+  constexpr double flattest = 0x1p24;
+  return flattest * start_error;
 }
 
-/// Returns ObjectRay::first_above for a ray with that farthest_start(). A crossing above it is not
-/// at the start.
+/// Returns up to which t surfaces through the start may be met.
 template <class Real>
-Real asked_above(const Real& farthest_start) {
+Real tolerated_start(const Real& begin, const Real& start_error) {
+  return begin + start_tolerance(start_error);
+}
+inline double tolerated_start(const WorldRay& ray) {
+  return tolerated_start(ray.t_min, ray.start.t_error + ray.max_size_error);
+}
+
+/// Returns ObjectRay::first_wanted_after for a ray with that tolerated_start(). A crossing above it
+/// is not at the start.
+template <class Real>
+Real surely_after(const Real& tolerated_start) {
   // The margin covers the rounding of the test. So a crossing that passes it is above
-  // farthest_start by more than its error.
+  // tolerated_start by more than its error.
   constexpr double more_than_rounding = 0x1p-50;
-  return farthest_start + more_than_rounding * abs(farthest_start);
+  return tolerated_start + more_than_rounding * abs(tolerated_start);
 }
 
 }  // namespace crt::core

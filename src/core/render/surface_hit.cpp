@@ -11,13 +11,13 @@ namespace crt::core {
 
 namespace {
 
-/// Returns the colours of a material in the lanes that have their bit in `alike`. The points are in
+/// Returns the colours of a material in the lanes that have their bit in `same`. The points are in
 /// object space.
 ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointLanes& points,
-                           RayMask alike, RenderStats& stats) {
+                           RayMask same, RenderStats& stats) {
   if (!material.pattern) return lanes_of(material.color);
-  stats.pattern_lookups += static_cast<unsigned>(std::popcount(alike));
-  return material.pattern->colors(points, alike);
+  stats.pattern_lookups += static_cast<unsigned>(std::popcount(same));
+  return material.pattern->colors(points, same);
 }
 
 /// Returns a normal for shading in the world, tilted by the material's bumps. `normal` and the
@@ -32,8 +32,9 @@ Vec3 bumped_normal(const LeafOfHit& hit, std::uint32_t face, const PreparedMater
   return tilted_normal(hit.placement().normal_to_world(normal), height_gradient);
 }
 
-/// AlikeHits are rays of a group that hit one face, or spheres of one material, from the same side.
-struct AlikeHits {
+/// SameSideHits are rays of a group that hit one face, or spheres of one material, from the same
+/// side.
+struct SameSideHits {
   std::span<const RayHit, lane_count> hits;
   const RayHit& first;
   const PreparedMaterial& material;
@@ -46,32 +47,32 @@ struct AlikeHits {
   }
 };
 
-void set_material(const AlikeHits& alike, const VectorLanes& color, const Lanes& transparency,
+void set_material(const SameSideHits& same, const VectorLanes& color, const Lanes& transparency,
                   SurfaceGroup& group) {
-  const Material& description = *alike.material.description;
-  alike.set(group.phong.color, color);
-  alike.set(group.phong.diffuse, alike.material.diffuse(transparency));
-  alike.set(group.phong.specular, lanes_of(description.specular));
-  alike.set(group.phong.shininess, lanes_of(description.shininess));
-  alike.set(group.reflectivity, lanes_of(description.reflectivity));
-  alike.set(group.transparency, transparency);
-  if (!alike.material.ends_paths) group.sending_on |= alike.rays;
+  const Material& description = *same.material.description;
+  same.set(group.phong.color, color);
+  same.set(group.phong.diffuse, same.material.diffuse(transparency));
+  same.set(group.phong.specular, lanes_of(description.specular));
+  same.set(group.phong.shininess, lanes_of(description.shininess));
+  same.set(group.reflectivity, lanes_of(description.reflectivity));
+  same.set(group.transparency, transparency);
+  if (!same.material.ends_paths) group.sending_on |= same.rays;
 }
 
 /// Sets the normals of surfaces that are bumped or have normals for shading, seen along the rays'
 /// directions. The points are in object space.
-void set_shading_normals(const PreparedData& data, const AlikeHits& alike,
+void set_shading_normals(const PreparedData& data, const SameSideHits& same,
                          const SurfacePointLanes& points, SurfaceGroup& group, Workspace& work) {
-  const double to_viewer = alike.first.entering ? 1 : -1;
-  for_each_ray(alike.rays, [&](std::size_t lane) {
-    const RayHit& hit = alike.hits[lane];
+  const double to_viewer = same.first.entering ? 1 : -1;
+  for_each_ray(same.rays, [&](std::size_t lane) {
+    const RayHit& hit = same.hits[lane];
     const LeafOfHit in_place = data.placed_leaf(hit);
     const SurfacePoint point = lane_of(points, lane);
     const auto [plain, horizon] =
         in_place.leaf().shape->shading_normal(hit.face, point.position, point.normal);
     group.horizons[lane] = horizon;
-    const Vec3 normal = alike.material.bump
-                            ? bumped_normal(in_place, hit.face, alike.material, point, plain, work)
+    const Vec3 normal = same.material.bump
+                            ? bumped_normal(in_place, hit.face, same.material, point, plain, work)
                             : in_place.placement().normal_to_world(plain);
     group.phong.normal.set(lane, visible_normal(to_viewer * normal, group.phong.view.lane(lane)));
   });
@@ -91,28 +92,28 @@ void look_up(const PreparedData& data, const RayLanes& rays,
   for (RayMask to_come = seen; to_come != 0;) {
     const RayHit& first = hits[first_ray(to_come)];
     const PreparedMaterial& material = data.materials()[data.hit_material(first)];
-    const AlikeRays rays_alike = faces.alike(to_come);
-    const AlikeHits alike = {hits, first, material, rays_alike.all()};
-    to_come &= ~alike.rays;
+    const SameSideRays same_rays = faces.on_same_side(to_come);
+    const SameSideHits same = {hits, first, material, same_rays.all()};
+    to_come &= ~same.rays;
 
     const Side side = first.entering ? Side::outside : Side::inside;
     const StartPoint start = data.start_face(first, side);
-    for_each_ray(rays_alike.on_face, [&](std::size_t lane) { group.starts[lane].set_face(start); });
-    for_each_ray(rays_alike.on_others, [&](std::size_t lane) {
+    for_each_ray(same_rays.on_face, [&](std::size_t lane) { group.starts[lane].set_face(start); });
+    for_each_ray(same_rays.on_others, [&](std::size_t lane) {
       group.starts[lane].set_face(data.start_face(hits[lane], side));
     });
-    faces.object_points(rays_alike, rays, t, material.uses_uv, points);
-    const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
+    faces.object_points(same_rays, rays, t, material.uses_uv, points);
+    const ColorLanes colors = material_colors(material, points, same.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
-    set_material(alike, colors.color, transparency, group);
+    set_material(same, colors.color, transparency, group);
     const bool is_smooth = data.leaf(first).has_normals;
     const bool has_own_normals = is_smooth || material.bump;
-    if (is_smooth) group.smooth |= alike.rays;
-    if (has_own_normals) set_shading_normals(data, alike, points, group, work);
+    if (is_smooth) group.smooth |= same.rays;
+    if (has_own_normals) set_shading_normals(data, same, points, group, work);
     data.take_to_world(first, points);
-    alike.set(group.position, points.position);
-    alike.set(group.face_normal, first.entering ? points.normal : -points.normal);
-    if (!has_own_normals) alike.set(group.phong.normal, group.face_normal);
+    same.set(group.position, points.position);
+    same.set(group.face_normal, first.entering ? points.normal : -points.normal);
+    if (!has_own_normals) same.set(group.phong.normal, group.face_normal);
   }
   group.start_errors = start_rounding * largest_component(rays.at(t));
 }

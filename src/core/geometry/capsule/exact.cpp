@@ -28,14 +28,14 @@ class ExactCapsuleShape final : public ExactShape {
     if (ray.near.start.face != invalid_index) return crossings_from_surface(ray, out);
     CapsuleSpan whole = span(ray, out);
     if (!whole.found) return false;
-    if (ray.near.is_first_asked(whole.enter)) {
+    if (ray.near.is_first_wanted(whole.enter)) {
       out.push_back(whole.enter);
       return false;
     }
     if (whole.leave.face == invalid_index) {
       // A part left out where it ends, as it begins so late, but the capsule begins before it.
       ObjectRay near = ray.near;
-      near.first_above = std::numeric_limits<double>::infinity();
+      near.first_wanted_after = std::numeric_limits<double>::infinity();
       whole.leave = span(ray.seen_as(near), out).leave;
     }
     append(whole, out);
@@ -100,7 +100,7 @@ class ExactCapsuleShape final : public ExactShape {
     const FaceStart& start = ray.near.start;
     std::array<CapsuleSpan, 3> spans;
     ObjectRay near = ray.near;
-    near.first_above = std::numeric_limits<double>::infinity();
+    near.first_wanted_after = std::numeric_limits<double>::infinity();
     for (std::uint32_t part = 0; part < parts_.size(); ++part) {
       near.start = start_on_part(start, part);
       spans[part] = span_of(part, ray.seen_as(near), out);

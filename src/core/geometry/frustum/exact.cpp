@@ -111,15 +111,15 @@ class ExactFrustumShape final : public ExactShape {
       }
       if (end.meeting.found()) (end.meeting.side < 0 ? enter : leave) = end;
     }
-    const double first_above = start.face == invalid_index
-                                   ? ray.near.first_above
-                                   : std::numeric_limits<double>::infinity();
+    const double first_wanted_after = start.face == invalid_index
+                                          ? ray.near.first_wanted_after
+                                          : std::numeric_limits<double>::infinity();
     Piece piece;
     FilteredSide filtered(frustum_, ray);
-    std::optional<bool> hit = cut(filtered, enter, leave, first_above, piece);
+    std::optional<bool> hit = cut(filtered, enter, leave, first_wanted_after, piece);
     if (!hit) {
       ExactSide exact(frustum_, ray);
-      hit = cut(exact, enter, leave, first_above, piece);
+      hit = cut(exact, enter, leave, first_wanted_after, piece);
     }
     if (!*hit || !std::isfinite(piece.enter.t) || !std::isfinite(piece.leave.t)) return false;
     if (start.face == invalid_index) {
@@ -166,7 +166,7 @@ class ExactFrustumShape final : public ExactShape {
   /// Finds what the line cuts out of the solid. The result is unknown if the side cannot decide.
   template <typename Side>
   static std::optional<bool> cut(Side& side, const CapMeeting& enter, const CapMeeting& leave,
-                                 double first_above, Piece& piece) {
+                                 double first_wanted_after, Piece& piece) {
     const std::optional<int> at_enter = side.sign_at(enter);
     const std::optional<int> at_leave = side.sign_at(leave);
     if (!at_enter || !at_leave) return std::nullopt;
@@ -175,7 +175,7 @@ class ExactFrustumShape final : public ExactShape {
       if (!is_inside || !*is_inside) return is_inside;
     }
     const auto first = *at_enter < 0 ? enter.crossing() : side.root(true, enter, leave);
-    if (first && first->t - errors_at_start * first->error > first_above) {
+    if (first && first->t - errors_at_start * first->error > first_wanted_after) {
       piece.enter = *first;
       return true;
     }

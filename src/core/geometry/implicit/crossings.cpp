@@ -78,8 +78,8 @@ FieldSearchLimits FieldSpan::limits(const FieldProgram& program, const FieldRay&
               static_cast<std::uint32_t>(evaluations) * (field_ray.is_exact ? more_of_exact : 1),
           .shortest = 0x1p-52 * size,
           .first = to_x(ray.begin),
-          .enough_after = to_x(ray.first_above) + same_place,
-          .is_enough_inside = !begins_within && ray.is_first_asked(enter),
+          .enough_after = to_x(ray.first_wanted_after) + same_place,
+          .is_enough_inside = !begins_within && ray.is_first_wanted(enter),
           .same_place = same_place};
 }
 
@@ -130,7 +130,7 @@ void find_roots(const FieldRay& field_ray, const Crossing& enter, const Crossing
 ObjectRay as_box_sees(const ObjectRay& ray) {
   ObjectRay result = ray;
   result.begin = -infinity;
-  result.first_above = infinity;
+  result.first_wanted_after = infinity;
   if (ray.start.face == 0) {
     result.start = {};
   } else if (ray.start.face != invalid_index) {

@@ -116,7 +116,7 @@ class MetTriangles {
 template <class Triangles>
 bool MetTriangles<Triangles>::append() {
   begin_ = list_.size();
-  const bool first_is_enough = ray_.first_above < infinity;
+  const bool first_is_enough = ray_.first_wanted_after < infinity;
   find(first_is_enough);
   if (!mesh_.is_closed()) {
     sort();
@@ -224,7 +224,7 @@ bool MetTriangles<Triangles>::is_behind(const Crossing& crossing, const Leaf& le
 /// is inside there.
 template <class Triangles>
 bool MetTriangles<Triangles>::may_be_last(const Crossing& crossing, Facing facing) const {
-  if (!ray_.is_first_asked(crossing) || !(highest(crossing) < infinity)) return false;
+  if (!ray_.is_first_wanted(crossing) || !(highest(crossing) < infinity)) return false;
   if (!mesh_.is_closed()) return true;
   return (facing == Facing::outwards || facing == Facing::inwards) &&
          (ray_.start.face == invalid_index || lowest(crossing) > 0);

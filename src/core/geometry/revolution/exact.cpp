@@ -15,7 +15,7 @@ ExactRay started_on(const TurnedProfile& turned, std::uint32_t body, const Exact
   near = ray.near;
   near.start = turned.start_on(body, ray.near.start);
   near.begin = -std::numeric_limits<double>::infinity();
-  near.first_above = std::numeric_limits<double>::infinity();
+  near.first_wanted_after = std::numeric_limits<double>::infinity();
   return ray.seen_as(near);
 }
 

@@ -23,7 +23,7 @@ class StandardTier final : public RevolutionTier {
     ObjectRay ray = ray_;
     ray.start = start;
     ray.begin = -std::numeric_limits<double>::infinity();
-    ray.first_above = std::numeric_limits<double>::infinity();
+    ray.first_wanted_after = std::numeric_limits<double>::infinity();
     return bodies_[body]->crossings(ray, out);
   }
 

@@ -36,7 +36,7 @@ class ExactSphereShape final : public ExactShape {
     Crossing enter{.t = line.to_t(closest - half_chord), .root = 0, .entering = true};
     Crossing leave{.t = line.to_t(closest + half_chord), .root = 1, .entering = false};
     if (!polish(ray, enter)) return exact_crossings(ray, out);
-    const bool is_enough = ray.near.is_first_asked(enter);
+    const bool is_enough = ray.near.is_first_wanted(enter);
     if (!is_enough && !polish(ray, leave)) return exact_crossings(ray, out);
     out.push_back(enter);
     if (!is_enough) out.push_back(leave);

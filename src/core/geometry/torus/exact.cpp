@@ -213,7 +213,7 @@ class ExactTorusShape final : public ExactShape {
             return false;
         }
         out.push_back(crossing);
-        if (ray.near.is_first_asked(crossing)) return true;
+        if (ray.near.is_first_wanted(crossing)) return true;
       }
     }
     return true;

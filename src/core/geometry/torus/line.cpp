@@ -152,20 +152,20 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
   Real low = from;
   Real high = to;
   Search result{.x = low + length / 2.0};
-  Mask going = wanted;
+  Mask active = wanted;
   for (int step = 0; step < most_steps; ++step) {
     const Real x = result.x;
-    going = going && low < x && x < high;
-    if (!any(going)) break;
+    active = active && low < x && x < high;
+    if (!any(active)) break;
     const Level here = level(x);
     const Real height = sign * here.value;
     const Real error = value_error(x);
-    const Mask is_found = going && height < -error;
+    const Mask is_found = active && height < -error;
     result.level = Level::chosen(is_found, here, result.level);
     result.found = result.found || is_found;
     result.certain = result.certain || is_found;
-    going = going && !is_found;
-    if (!any(going)) break;
+    active = active && !is_found;
+    if (!any(active)) break;
 
     const Real slope = 2.0 * sign * here.half_slope;
     const Mask upwards = slope > 0.0;
@@ -173,9 +173,9 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
     const Real farthest = select(upwards, x - low, high - x);
     const Real open = margin(error, high - low);
     const Mask is_none = select(is_level, height > open, height - abs(slope) * farthest > open);
-    result.certain = result.certain || (going && is_none);
-    going = going && !(is_none || is_level);
-    if (!any(going)) break;
+    result.certain = result.certain || (active && is_none);
+    active = active && !(is_none || is_level);
+    if (!any(active)) break;
 
     low = select(upwards, low, x);
     high = select(upwards, x, high);
@@ -186,7 +186,7 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
     const Mask by_newton = curvature > 0.0 && next > low && next < high;
     const Real middle = low + (high - low) / 2.0;
     const Real onwards = select(shrinks, select(by_newton, next, middle), middle);
-    result.x = select(going, onwards, x);
+    result.x = select(active, onwards, x);
   }
   return result;
 }
@@ -232,17 +232,17 @@ template <class Real>
 Real TorusLineOf<Real>::root(const Bracket& bracket, const Mask& wanted) const {
   Real negative = bracket.negative;
   Real positive = bracket.positive;
-  Mask going = wanted;
+  Mask active = wanted;
   Real x = first_guess(bracket);
   if (on_surface_) {
     const Mask at_start = min(negative, positive) <= 0.0 && max(negative, positive) >= 0.0;
     x = select(at_start, Real{}, x);
-    going = going && !at_start;
+    active = active && !at_start;
   }
   constexpr int most_steps = 200;
   Real step = abs(positive - negative);
   Real step_before = step;
-  for (int steps = 0; steps < most_steps && any(going); ++steps) {
+  for (int steps = 0; steps < most_steps && any(active); ++steps) {
     const Level here = level(x);
     const Real height = here.value;
     const Mask is_there = height == 0.0;
@@ -256,18 +256,18 @@ Real TorusLineOf<Real>::root(const Bracket& bracket, const Mask& wanted) const {
     const Real low = min(negative, positive);
     const Real high = max(negative, positive);
     const Mask is_last = is_last_step(x, here, change);
-    const Mask is_found = going && (is_there || is_last);
+    const Mask is_found = active && (is_there || is_last);
     const Real from = x;
     x = select(is_found, select(is_there, from, clamp(next, low, high)), from);
-    going = going && !is_found;
-    if (!any(going)) break;
+    active = active && !is_found;
+    if (!any(active)) break;
 
     const Mask halves = low < next && next < high && abs(change) <= step_before / 2.0;
     const Real onwards = select(halves, next, low + (high - low) / 2.0);
     step_before = step;
     step = abs(onwards - from);
-    x = select(going, onwards, x);
-    going = going && !(onwards == from || onwards == low || onwards == high);
+    x = select(active, onwards, x);
+    active = active && !(onwards == from || onwards == low || onwards == high);
   }
   return x;
 }

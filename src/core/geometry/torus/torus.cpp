@@ -92,11 +92,11 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const NearLine line = on_surface ? NearLine::at_origin(ray, center_, unit_)
                                    : NearLine::at_closest(ray, center_, unit_);
   TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
-  if (!on_surface && ray.first_above < std::numeric_limits<double>::infinity()) {
+  if (!on_surface && ray.first_wanted_after < std::numeric_limits<double>::infinity()) {
     const auto first = first_entry<double>(line, torus, true);
     if (!first.found) return false;
     const Crossing crossing{.t = first.t, .error = first.error, .entering = true};
-    if (first.known && ray.is_first_asked(crossing)) {
+    if (first.known && ray.is_first_wanted(crossing)) {
       out.push_back(crossing);
       return false;
     }
@@ -142,12 +142,12 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     // The line is inside at least up to `leave.negative`. So the end of the span is computed only
     // if it is needed.
     const Crossing entry = crossing(first, i, true, leave.positive - first);
-    if (ray.is_first_asked(entry) && entry.t < line.to_t(leave.negative)) {
+    if (ray.is_first_wanted(entry) && entry.t < line.to_t(leave.negative)) {
       out.push_back(entry);
       return false;
     }
     add({first, torus.root(leave, true)}, i);
-    if (!out.empty() && ray.is_first_asked(out.back())) return false;
+    if (!out.empty() && ray.is_first_wanted(out.back())) return false;
   }
   return false;
 }
