@@ -177,7 +177,7 @@ TEST_CASE("for nearly all rays from outside it is resolved where they enter a to
     const BoundingProxy& proxy = proxies.list.front();
     const Decision<RayMask> decision = filter.decide(proxy, 1, {}, false, parts);
     if (decision.rejected != 0) continue;
-    const FirstCrossing<double> crossing = filter.first_crossing(proxy, 0, 1, {}, parts[0]);
+    const FirstCrossing<double> crossing = filter.first_crossing(proxy, 0, 1, {}, &parts[0]);
     unknown += crossing.unknown ? 1 : 0;
     found += crossing.found ? 1 : 0;
   }
