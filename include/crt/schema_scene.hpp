@@ -37,9 +37,13 @@ inline constexpr auto ambient = field("ambient", &Light::ambient, factor, {}, ""
 
 template <>
 inline constexpr auto table<PointLight> = Table{
-    "PointLight",        field("origin", &PointLight::origin, point, required, ""),
-    color<PointLight>,   falloff<PointLight>,
+    "PointLight",
+    field("origin", &PointLight::origin, point, required, ""),
+    color<PointLight>,
+    falloff<PointLight>,
     ambient<PointLight>,
+    field("radius", &PointLight::radius, between(0, largest_length), {},
+          "above 0 it is a ball that softens shadows, which is not seen"),
 };
 
 template <>
@@ -51,6 +55,9 @@ inline constexpr auto table<ParallelLight> = Table{
           "to `pointing`, which is another point"),
     color<ParallelLight>,
     ambient<ParallelLight>,
+    field("angle", &ParallelLight::angle, between(0, std::numbers::pi),
+          {.degrees = "must be between 0 and 180 degrees"},
+          "above 0, how wide it is seen in degrees, at most 180; it softens shadows"),
 };
 
 template <>
@@ -80,6 +87,52 @@ inline constexpr auto table<CylinderLight> = Table{
     field("radius", &CylinderLight::radius, extent, required, "above 0"),
     falloff<CylinderLight>,
     ambient<CylinderLight>,
+};
+
+/// Lights with a surface have some of these rows.
+template <class Light>
+inline constexpr auto radiance = field("color", &Light::color, brightness, required,
+                                       "its radiance");
+template <class Light>
+inline constexpr auto visible = field("visible", &Light::visible, any, {},
+                                      "whether it is seen itself");
+template <class Light>
+inline constexpr auto two_sided = field("two_sided", &Light::two_sided, any, {.script = "twosided"},
+                                        "whether it shines to both sides");
+
+template <>
+inline constexpr auto table<SphereLight> = Table{
+    "SphereLight",
+    field("center", &SphereLight::center, point, {.required = true, .c = "origin"}, ""),
+    field("radius", &SphereLight::radius, extent, required, "above 0"),
+    radiance<SphereLight>,
+    visible<SphereLight>,
+};
+
+template <>
+inline constexpr auto table<DiscLight> = Table{
+    "DiscLight",
+    field("center", &DiscLight::center, point, {.required = true, .c = "origin"}, ""),
+    // C says a point that it faces.
+    field("normal", &DiscLight::normal, direction, {.required = true, .in_c = false},
+          "the side that it shines to, not 0"),
+    field("radius", &DiscLight::radius, extent, required, "above 0"),
+    radiance<DiscLight>,
+    visible<DiscLight>,
+    two_sided<DiscLight>,
+};
+
+template <>
+inline constexpr auto table<RectangleLight> = Table{
+    "RectangleLight",
+    field("corner", &RectangleLight::corner, point, {.required = true, .c = "origin"}, ""),
+    field("edge_a", &RectangleLight::edge_a, direction, required,
+          "from the corner along one side, not 0"),
+    field("edge_b", &RectangleLight::edge_b, direction, required,
+          "along the other one, not parallel to the first"),
+    radiance<RectangleLight>,
+    visible<RectangleLight>,
+    two_sided<RectangleLight>,
 };
 
 template <>

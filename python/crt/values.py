@@ -130,12 +130,15 @@ class LightType(enum.IntEnum):
     PARALLEL = 1
     SPOT = 2
     CYLINDER = 3
+    SPHERE = 4
+    DISC = 5
+    RECTANGLE = 6
 
 
 @growable("crt_light", type=LightType)
 class Light(Struct):
     """A Light is made by Light.point(origin=...), Light.parallel(origin=..., pointing=...),
-    Light.spot() or Light.cylinder()."""
+    Light.spot(), Light.cylinder(), Light.sphere(), Light.disc() or Light.rectangle()."""
 
     @classmethod
     def point(cls, **fields: Any) -> "Light":
@@ -156,6 +159,23 @@ class Light(Struct):
     def cylinder(cls, **fields: Any) -> "Light":
         """Sends parallel rays that fill a cylinder from `origin` towards `pointing`."""
         return cls.of_type(LightType.CYLINDER, **fields)
+
+    @classmethod
+    def sphere(cls, **fields: Any) -> "Light":
+        """Shines outwards from a sphere about `origin`. `color` is its radiance, as of the next
+        two."""
+        return cls.of_type(LightType.SPHERE, **fields)
+
+    @classmethod
+    def disc(cls, **fields: Any) -> "Light":
+        """Shines from a disc about `origin` towards `pointing`."""
+        return cls.of_type(LightType.DISC, **fields)
+
+    @classmethod
+    def rectangle(cls, **fields: Any) -> "Light":
+        """Shines from the parallelogram from `origin` along `edge_a` and `edge_b`, to the side of
+        their cross product."""
+        return cls.of_type(LightType.RECTANGLE, **fields)
 
 
 class Projection(enum.IntEnum):

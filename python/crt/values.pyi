@@ -360,7 +360,7 @@ class Material(_Struct):
         bump_height: SupportsFloat = ...,
     ) -> None: ...
 
-LightTypeName = Literal["point", "parallel", "spot", "cylinder"]
+LightTypeName = Literal["point", "parallel", "spot", "cylinder", "sphere", "disc", "rectangle"]
 
 class LightType(enum.IntEnum):
     """Lists the kinds of lights. All cast shadows."""
@@ -368,24 +368,35 @@ class LightType(enum.IntEnum):
     PARALLEL = 1
     SPOT = 2
     CYLINDER = 3
+    SPHERE = 4
+    DISC = 5
+    RECTANGLE = 6
 
 class Light(_Struct):
     """A Light is made by Light.point(origin=...), Light.parallel(origin=..., pointing=...),
-    Light.spot() or Light.cylinder().
+    Light.spot(), Light.cylinder(), Light.sphere(), Light.disc() or Light.rectangle().
 
     Its fields are:
     - type (LightType, or its name): a LightType; default LightType.POINT
     - origin (Vector): default 0
     - pointing (Vector): default 0; a point light ignores it, others need a point other than
       `origin`
-    - color (Vector): linear RGB, >= 0, may pass 1; default 1
-    - angle (float): spot: full angle of the cone, in (0, 2 pi]; default pi / 3
+    - color (Vector): linear RGB, >= 0, may pass 1; default 1. Of what has a surface it is the
+      radiance
+    - angle (float): spot: full angle of the cone, in (0, 2 pi]; 0 (default) is pi / 3. Parallel:
+      how wide it is seen, in [0, pi], which softens shadows; default 0
     - penumbra (float): spot: width of its soft edge inwards, radians of the half angle; default pi
       / 36
-    - radius (float): cylinder: > 0; default 1
+    - radius (float): cylinder, sphere, disc: > 0, and 0 (default) is 1. Point: at 0 a point, above
+      it a ball that softens shadows and is not seen
     - falloff (float): 0 (default) or less: distance does not matter; else the light fades as
       falloff / D^2
     - ambient (float): share of the colour that every point gets, >= 0; default 0
+    - edge_a (Vector): rectangle: not 0; default (1, 0, 0). Since 1.1, as what follows.
+    - edge_b (Vector): rectangle: not parallel to `edge_a`; default (0, 0, 1)
+    - visible (int): sphere, disc, rectangle: whether it is seen itself; default 1
+    - two_sided (int): disc, rectangle: whether it shines to both sides; default 0
+    - scale (float): environment: factor of the background's light; default 1
     """
     type: LightType | int | LightTypeName
     origin: Vector
@@ -396,6 +407,11 @@ class Light(_Struct):
     radius: float
     falloff: float
     ambient: float
+    edge_a: Vector
+    edge_b: Vector
+    visible: int
+    two_sided: int
+    scale: float
     def __init__(
         self,
         *,
@@ -408,6 +424,11 @@ class Light(_Struct):
         radius: SupportsFloat = ...,
         falloff: SupportsFloat = ...,
         ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
@@ -421,6 +442,11 @@ class Light(_Struct):
         radius: SupportsFloat = ...,
         falloff: SupportsFloat = ...,
         ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
     ) -> None: ...
     @classmethod
     def point(
@@ -434,6 +460,11 @@ class Light(_Struct):
         radius: SupportsFloat = ...,
         falloff: SupportsFloat = ...,
         ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
     ) -> Light:
         """Shines from `origin` in all directions."""
     @classmethod
@@ -448,6 +479,11 @@ class Light(_Struct):
         radius: SupportsFloat = ...,
         falloff: SupportsFloat = ...,
         ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
     ) -> Light:
         """Shines along `origin` to `pointing` everywhere, like a sun."""
     @classmethod
@@ -462,6 +498,11 @@ class Light(_Struct):
         radius: SupportsFloat = ...,
         falloff: SupportsFloat = ...,
         ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
     ) -> Light:
         """Shines from `origin` into a cone about the direction to `pointing`."""
     @classmethod
@@ -476,8 +517,74 @@ class Light(_Struct):
         radius: SupportsFloat = ...,
         falloff: SupportsFloat = ...,
         ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
     ) -> Light:
         """Sends parallel rays that fill a cylinder from `origin` towards `pointing`."""
+    @classmethod
+    def sphere(
+        cls,
+        *,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
+    ) -> Light:
+        """Shines outwards from a sphere about `origin`. `color` is its radiance, as of the next
+        two.
+        """
+    @classmethod
+    def disc(
+        cls,
+        *,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
+    ) -> Light:
+        """Shines from a disc about `origin` towards `pointing`."""
+    @classmethod
+    def rectangle(
+        cls,
+        *,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
+    ) -> Light:
+        """Shines from the parallelogram from `origin` along `edge_a` and `edge_b`, to the side of
+        their cross product.
+        """
 
 ProjectionName = Literal["pinhole", "spherical", "cylindrical", "orthographic"]
 

@@ -81,6 +81,8 @@ Struct defaults_of_size(std::size_t) {
 }
 template <>
 crt_settings defaults_of_size<crt_settings>(std::size_t size);
+template <>
+crt_light defaults_of_size<crt_light>(std::size_t size);
 
 inline constexpr std::size_t size_field = sizeof(std::uint32_t);
 /// No struct will ever be larger than this. A larger size is a mistake.

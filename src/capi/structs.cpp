@@ -91,9 +91,11 @@ template <>
 std::span<const CField> c_fields<crt_light>() {
   using S = crt_light;
   static constexpr std::array fields = {
-      CRT_FIELD(S, type),   CRT_FIELD(S, origin),  CRT_FIELD(S, pointing),
-      CRT_FIELD(S, color),  CRT_FIELD(S, angle),   CRT_FIELD(S, penumbra),
-      CRT_FIELD(S, radius), CRT_FIELD(S, falloff), CRT_FIELD(S, ambient)};
+      CRT_FIELD(S, type),      CRT_FIELD(S, origin),  CRT_FIELD(S, pointing),
+      CRT_FIELD(S, color),     CRT_FIELD(S, angle),   CRT_FIELD(S, penumbra),
+      CRT_FIELD(S, radius),    CRT_FIELD(S, falloff), CRT_FIELD(S, ambient),
+      CRT_FIELD(S, edge_a),    CRT_FIELD(S, edge_b),  CRT_FIELD(S, visible),
+      CRT_FIELD(S, two_sided), CRT_FIELD(S, scale)};
   return fields;
 }
 
@@ -351,7 +353,7 @@ crt_status crt_material_init(crt_material* material, size_t struct_size) {
 }
 
 crt_status crt_light_init(crt_light* light, size_t struct_size) {
-  return guarded([&] { initialise(light, struct_size, defaults<crt_light>()); });
+  return guarded([&] { initialise(light, struct_size, defaults_of_size<crt_light>(struct_size)); });
 }
 
 crt_status crt_light_init_type(crt_light* light, size_t struct_size, int32_t type) {

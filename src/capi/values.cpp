@@ -54,7 +54,15 @@ Material to_material(const crt_material* material) {
 // ---- lights -------------------------------------------------------------------------------------
 
 // The types of C are the kinds of C++ in their order.
-static_assert(CRT_LIGHT_CYLINDER + 1 == std::variant_size_v<Light>);
+static_assert(CRT_LIGHT_RECTANGLE + 1 == std::variant_size_v<Light>);
+
+namespace {
+
+/// In version 1.0, whose struct ends before this field, only cylinders had a radius and only spot
+/// lights an angle.
+constexpr std::size_t size_of_light_in_1_0 = offsetof(crt_light, edge_a);
+
+}  // namespace
 
 crt_light to_c(const Light& light) {
   crt_light out{};
@@ -63,6 +71,11 @@ crt_light to_c(const Light& light) {
   put_defaults<Light>(out);
   out.type = static_cast<std::int32_t>(light.index());
   std::visit([&out](const auto& kind) { put_fields(out, kind); }, light);
+  out.scale = 1;
+  if (const auto* disc = std::get_if<DiscLight>(&light)) {
+    const Vec3 faced = disc->center + disc->normal;
+    for (int axis = 0; axis < 3; ++axis) out.pointing[axis] = faced[axis];
+  }
   return out;
 }
 
@@ -77,11 +90,35 @@ crt_light defaults<crt_light>() {
   return default_light(CRT_LIGHT_POINT);
 }
 
+template <>
+crt_light defaults_of_size<crt_light>(std::size_t size) {
+  crt_light light = defaults<crt_light>();
+  if (size > size_of_light_in_1_0) return light;
+  light.radius = CylinderLight().radius;
+  light.angle = SpotLight().angle;
+  return light;
+}
+
 Light to_light(const crt_light* light) {
-  const auto given = taken(light, "light");
+  auto given = taken(light, "light");
+  const bool is_of_1_0 = given.struct_size <= size_of_light_in_1_0;
   Light result;
-  with_kind<Light>(given.type, "light.type", "crt_light_type", [&](auto kind) {
+  with_kind<Light>(given.type, "light.type", "crt_light_type", [&]<class Kind>(Kind kind) {
+    const Kind standard = kind;
     take_fields(kind, given, "light");
+    // What crt_light_init() writes into fields that kinds share is of a point light.
+    if constexpr (requires { kind.radius; }) {
+      const bool has_default = std::is_same_v<Kind, PointLight> ? is_of_1_0 : kind.radius == 0;
+      if (has_default) kind.radius = standard.radius;
+    }
+    if constexpr (requires { kind.angle; }) {
+      const bool has_default = std::is_same_v<Kind, ParallelLight> ? is_of_1_0 : kind.angle == 0;
+      if (has_default) kind.angle = standard.angle;
+    }
+    if constexpr (std::is_same_v<Kind, DiscLight>) {
+      for (int axis = 0; axis < 3; ++axis)
+        kind.normal[axis] = given.pointing[axis] - given.origin[axis];
+    }
     result = kind;
   });
   return result;

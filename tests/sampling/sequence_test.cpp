@@ -208,3 +208,42 @@ TEST_CASE("a wide filter's places have its weight as their density") {
       0.35875;
   CHECK(square == doctest::Approx(9 * moment).epsilon(1e-3));
 }
+
+TEST_CASE(
+    "the numbers of a decision fill the square evenly, and those of another in another order") {
+  for (int pixel = 0; pixel < 20; ++pixel) {
+    for (const std::uint32_t decision : {0u, 1u, 77u}) {
+      const PixelSequence sequence = PixelSequence::of_decision(7, pixel, 3, decision);
+      for (const std::uint32_t count : {16u, 64u}) {
+        std::vector<int> cells(count, 0);
+        const std::uint32_t side = count / 4;
+        for (std::uint32_t i = 0; i < count; ++i) {
+          const auto [u, v, w, x] = sequence.numbers(count + i);
+          REQUIRE((u >= 0 && u < 1 && v >= 0 && v < 1 && w >= 0 && w < 1 && x >= 0 && x < 1));
+          ++cells[static_cast<std::uint32_t>(u * 4) * side + static_cast<std::uint32_t>(v * side)];
+        }
+        for (const int cell : cells) CHECK(cell == 1);
+      }
+    }
+  }
+  // Two decisions together are spread no worse than at random: products of centered numbers have
+  // the variance 1/144.
+  const auto product_of = [](std::uint32_t first, std::uint32_t second, std::size_t dimension) {
+    double squares = 0;
+    constexpr int pixels = 2000;
+    constexpr std::uint32_t count = 16;
+    for (int pixel = 0; pixel < pixels; ++pixel) {
+      const auto a = PixelSequence::of_decision(5, pixel, 1, first);
+      const auto b = PixelSequence::of_decision(5, pixel, 1, second);
+      double sum = 0;
+      for (std::uint32_t i = 0; i < count; ++i)
+        sum += (a.numbers(i)[0] - 0.5) * (b.numbers(i)[dimension] - 0.5);
+      squares += sum / count * (sum / count);
+    }
+    return std::sqrt(squares / pixels);
+  };
+  const double at_random = 1.0 / 12 / std::sqrt(16.0);
+  CHECK(product_of(0, 1, 0) < 1.1 * at_random);
+  CHECK(product_of(0, 1, 0) > 0.8 * at_random);
+  CHECK(product_of(3, 1u << 15, 1) < 1.1 * at_random);
+}

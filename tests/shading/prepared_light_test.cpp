@@ -33,7 +33,7 @@ std::optional<LightSample> sample_of(const crt::Light& light, const Vec3& point,
     path_lengths[lane] = lane == 2 ? path_length : 77;
   }
   LightSamples samples;
-  const LaneMask lit = PreparedLight(light, model).sample(points, path_lengths, samples);
+  const LaneMask lit = PreparedLight(light, model).sample(points, path_lengths, {}, samples);
   if ((mask_of(lit) >> 2 & 1u) == 0) return std::nullopt;
   return LightSample{samples.directions.lane(2), samples.distances[2], samples.intensities[2]};
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "core/math/vector.hpp"
 #include "crt/error.hpp"
 #include "crt/schema_materials.hpp"
 #include "crt/schema_scene.hpp"
@@ -197,6 +198,13 @@ void validate(const Light& light) {
   std::visit([](const auto& kind) { check_fields(kind); }, light);
   if (const auto* spot = std::get_if<SpotLight>(&light))
     require_between("penumbra", spot->penumbra, 0, spot->angle / 2);
+  if (const auto* rectangle = std::get_if<RectangleLight>(&light)) {
+    const Vec3 a = rectangle->edge_a / core::largest_component(rectangle->edge_a);
+    const Vec3 b = rectangle->edge_b / core::largest_component(rectangle->edge_b);
+    constexpr double least_sine = 0x1p-30;
+    if (!(core::largest_component(glm::cross(a, b)) > least_sine))
+      reject("edge_b", "must not be parallel to edge_a");
+  }
 }
 
 void validate(const Camera& camera) {

@@ -12,8 +12,12 @@ Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& 
   features.csg = csg;
   features.lights = !scene.lights.empty();
   for (const Light& light : scene.lights) {
-    std::visit([&](const auto& kind) { features.ambient = features.ambient || kind.ambient > 0; },
-               light);
+    std::visit(
+        [&](const auto& kind) {
+          if constexpr (requires { kind.ambient; })
+            features.ambient = features.ambient || kind.ambient > 0;
+        },
+        light);
   }
   for (const PreparedMaterial& material : materials) {
     // Only diffuse and specular light can be blocked by something.

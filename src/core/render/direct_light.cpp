@@ -59,15 +59,53 @@ void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, V
   light = select(fades, max(Lanes{}, share) * light, light);
 }
 
+/// A NumbersOfLights draws the numbers that say which points of lights surfaces see. Two lights
+/// share the four numbers of a decision.
+class NumbersOfLights {
+ public:
+  NumbersOfLights(const TraceContext& context, const PathRays& rays, RayMask some)
+      : seed_(context.frame.settings().seed), rays_(rays), some_(some) {}
+
+  /// Draws those of the next light.
+  void next() {
+    if (++light_ % 2 != 0) return draw();
+    for (std::size_t i = 0; i < RayPacket::group_count; ++i) numbers_[i] = spare_[i];
+  }
+  const LightNumbers& of_group(std::size_t group) const { return numbers_[group]; }
+
+ private:
+  void draw() {
+    const auto kind = (light_ / 2) % SampleDecision::max_kinds;
+    for_each_ray(some_, [&](std::size_t i) {
+      const SampleWork& work = *rays_.works[i];
+      const auto number = static_cast<std::uint32_t>(work.rays);
+      const auto [u, v, spare_u, spare_v] = sample_numbers(seed_, work.id, {number, kind});
+      LightNumbers& numbers = numbers_[i / lane_count];
+      LightNumbers& spare = spare_[i / lane_count];
+      numbers.u[i % lane_count] = u;
+      numbers.v[i % lane_count] = v;
+      spare.u[i % lane_count] = spare_u;
+      spare.v[i % lane_count] = spare_v;
+    });
+  }
+
+  std::uint64_t seed_;
+  const PathRays& rays_;
+  RayMask some_;
+  std::uint32_t light_ = 0;
+  std::array<LightNumbers, RayPacket::group_count> numbers_;
+  std::array<LightNumbers, RayPacket::group_count> spare_;
+};
+
 /// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
 RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
-               ShadowRays& rays) {
+               const NumbersOfLights& numbers, ShadowRays& rays) {
   RayMask aimed = 0;
   LightSamples& samples = rays.samples;
   RayPacket::for_each_group(some, [&](std::size_t i, RayMask lanes) {
     const SurfaceGroup& group = surfaces.groups[i];
     LaneMask lit = lanes_with(lanes);
-    lit &= source.sample(group.position, group.path_length, samples);
+    lit &= source.sample(group.position, group.path_length, numbers.of_group(i), samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
     direct_light(group.phong, samples, source.color(), lit, rays.light[i]);
     if (group.smooth != 0) soften_terminator(group, samples.directions, rays.light[i]);
@@ -102,11 +140,15 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   if (some == 0) return;
   const PacketStarts starts = context.data.noted_starts(batch, some);
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
+  NumbersOfLights numbers(context, rays, some);
   std::size_t light_index = 0;
   for (const PreparedLight& source : context.frame.lights()) {
-    const RayMask sent = aim_at(source, surfaces, some, shadow_rays);
+    if (source.has_size()) numbers.next();
+    const RayMask sent = aim_at(source, surfaces, some, numbers, shadow_rays);
     const LightPaths paths = paths_to_light(context, batch, starts, sent);
-    if (context.identifies) identify_shadows(rays, light_index, paths.blocked | paths.filtered);
+    // Shadows of what has a size have no edge.
+    if (context.identifies && !source.has_size())
+      identify_shadows(rays, light_index, paths.blocked | paths.filtered);
     ++light_index;
     const RayMask unblocked = sent & ~paths.blocked;
     const RayMask filtered = paths.filtered | (unblocked & absorbed);

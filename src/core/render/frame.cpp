@@ -60,6 +60,8 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   for (const Light& light : data.scene().lights) {
     lights_.emplace_back(light, settings.falloff_model);
     ambient_ += lights_.back().ambient();
+    draws_numbers_ = draws_numbers_ || lights_.back().has_size();
+    shows_lights_ = shows_lights_ || lights_.back().is_visible();
   }
   if (features().gain > 1) {
     gains_behind_.assign(static_cast<std::size_t>(settings.recursion_depth) + 1, 1);

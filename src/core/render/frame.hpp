@@ -29,6 +29,11 @@ class Frame {
   const std::vector<PicturePlaceLanes>& subpixels() const { return subpixels_; }
   const std::vector<PreparedLight>& lights() const { return lights_; }
 
+  /// Returns whether samples draw numbers beyond those of their place and lens.
+  bool draws_numbers() const { return draws_numbers_; }
+  /// Returns whether a light is seen itself.
+  bool shows_lights() const { return shows_lights_; }
+
   /// Returns what all lights together give every point.
   const Rgb& ambient() const { return ambient_; }
 
@@ -61,6 +66,8 @@ class Frame {
   std::vector<PicturePlaceLanes> subpixels_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};
+  bool draws_numbers_ = false;
+  bool shows_lights_ = false;
   std::vector<double> gains_behind_;  ///< by bounces; none if no surface brightens light
   bool one_viewpoint_ = false;
   std::vector<Medium> camera_media_;

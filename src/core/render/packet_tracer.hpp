@@ -13,6 +13,14 @@ namespace crt::core {
 struct RayPlaces {
   std::array<PicturePlaceLanes, RayPacket::group_count> picture;
   std::array<LensPointLanes, RayPacket::group_count> lens;
+  std::array<SampleId, packet_size> samples;  ///< only where Frame::draws_numbers()
+
+  /// Says that rays are consecutive samples of a pixel.
+  void set_samples(std::size_t first, std::size_t count, const SampleId& id) {
+    for (std::size_t i = 0; i < count; ++i) {
+      samples[first + i] = {id.x, id.y, id.index + static_cast<std::uint32_t>(i)};
+    }
+  }
 };
 
 /// A PacketTracer traces rays by packets.
@@ -21,6 +29,7 @@ class PacketTracer {
   PacketTracer(const Frame& frame, Tracer& tracer, bool with_first_hits)
       : camera_(frame.camera()),
         with_lens_(frame.features().lens),
+        with_numbers_(frame.draws_numbers()),
         with_first_hits_(with_first_hits),
         tracer_(tracer) {}
 
@@ -35,13 +44,15 @@ class PacketTracer {
     const std::span<Sample> samples = std::span(samples_).first(count);
     const std::span<FirstHit> first_hits =
         std::span(first_hits_).first(with_first_hits_ ? count : 0);
-    tracer_.trace(rays_, samples, first_hits);
+    tracer_.trace(rays_, samples, std::span(places.samples).first(with_numbers_ ? count : 0),
+                  first_hits);
     return {samples, first_hits};
   }
 
  private:
   const CameraRays& camera_;
   bool with_lens_;
+  bool with_numbers_;
   bool with_first_hits_;
   Tracer& tracer_;
   std::array<RayLanes, RayPacket::group_count> rays_;

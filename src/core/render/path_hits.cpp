@@ -32,6 +32,7 @@ PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits)
   data.intersect_each(rays.batch, rays.all(), hits.hits, context.work.rays);
   data.prefetch_points(hits.hits, rays.all());
   hits.found = 0;
+  hits.on_light = 0;
   hits.seen = rays.all();
   for (std::size_t i = 0; i < rays.count; ++i) {
     RayHit& hit = hits.hits[i];
@@ -41,6 +42,24 @@ PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits)
     hits.found |= mask_of(hit.found()) << i;
   }
   return hits;
+}
+
+void meet_lights(const TraceContext& context, const PathRays& rays, PathHits& hits) {
+  const std::vector<PreparedLight>& lights = context.frame.lights();
+  for (std::uint32_t number = 0; number < lights.size(); ++number) {
+    if (!lights[number].is_visible()) continue;
+    RayPacket::for_each_group(rays.all(), [&](std::size_t group, RayMask lanes) {
+      const auto [met, t] = lights[number].meet(rays.batch.lines[group]);
+      for_each_ray(lanes & mask_of(met), [&](std::size_t lane) {
+        const std::size_t ray = group * lane_count + lane;
+        if (!(t[lane] < hits.hits[ray].t)) return;
+        hits.hits[ray] = {.t = t[lane]};
+        hits.lights[ray] = number;
+        hits.on_light |= RayMask{1} << ray;
+      });
+    });
+  }
+  hits.found &= ~hits.on_light;
 }
 
 void absorb(const TraceContext& context, PathRays& rays, PathHits& hits) {

@@ -10,16 +10,21 @@ namespace crt::core {
 /// PathHits are where the rays of a round end.
 struct PathHits {
   std::array<RayHit, packet_size> hits;
-  RayMask found = 0;  ///< rays that have met a surface
-  RayMask seen = 0;   ///< rays from whose ends light gets through
+  RayMask found = 0;     ///< rays that have met a surface
+  RayMask seen = 0;      ///< rays from whose ends light gets through
+  RayMask on_light = 0;  ///< rays that have met a light which is seen itself
+  std::array<std::uint32_t, packet_size> lights;  ///< its number in Frame::lights()
 
   RayMask on_surface() const { return found & seen; }
-  RayMask on_background() const { return seen & ~found; }
+  RayMask on_background() const { return seen & ~(found | on_light); }
 };
 
 /// Finds what the rays meet first. Where several objects have surfaces at that place, the hit is of
 /// the one that lets the least light through, of equal ones the one that was written first.
 PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits);
+
+/// Ends rays at lights that are seen themselves, where these are nearer than what the rays meet.
+void meet_lights(const TraceContext& context, const PathRays& rays, PathHits& hits);
 
 /// Takes from the rays' weights what the media around them absorb on the way to their hits. The
 /// hits of those of which nothing is left are not seen.

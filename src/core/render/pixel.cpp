@@ -77,7 +77,10 @@ class GridRays {
     const std::size_t lane = count % lane_count;
     const bool makes_group =
         lane == 0 && ray_ % lane_count == 0 && rays_per_pixel_ - ray_ >= lane_count;
-    if (!with_lens && makes_group) {
+    const bool places_group = !with_lens && makes_group;
+    if (frame_.draws_numbers())
+      places.set_samples(count, places_group ? lane_count : 1, {x, y, ray_});
+    if (places_group) {
       const PicturePlaceLanes& subpixels = frame_.subpixels()[ray_ / lane_count];
       places.picture[group] = {static_cast<double>(x) + subpixels.x,
                                static_cast<double>(y) + subpixels.y};
@@ -105,6 +108,10 @@ class GridRays {
     const auto below = pixel + static_cast<std::uint32_t>(region_.width);
     const std::array<std::uint32_t, lane_count> square = {pixel, pixel + 1, below, below + 1};
     std::copy(square.begin(), square.end(), &pixels[count]);
+    for (int i = 0; frame_.draws_numbers() && i < static_cast<int>(lane_count); ++i) {
+      places.set_samples(count + static_cast<std::size_t>(i), 1,
+                         {region_.x + place.x + i % 2, region_.y + place.y + i / 2, 0});
+    }
     place_ += lane_count;
     return true;
   }

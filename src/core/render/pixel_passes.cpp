@@ -18,6 +18,7 @@ class PassRays {
       : camera_(frame.camera()),
         filter_(frame.filter()),
         with_lens_(frame.features().lens),
+        with_numbers_(frame.draws_numbers()),
         seed_(frame.settings().seed),
         begin_(static_cast<std::uint32_t>(range.begin)),
         end_(static_cast<std::uint32_t>(range.end)),
@@ -38,10 +39,12 @@ class PassRays {
           std::min<std::size_t>(end_ - next_, packet_size - count) / lane_count;
       if (groups > 0 && next_ % lane_count == 0 && count % lane_count == 0) {
         const std::uint32_t placed = place_groups(places, count / lane_count, groups);
+        set_samples(places, count, placed);
         next_ += placed;
         count += placed;
       } else {
         place_one(places, count);
+        set_samples(places, count, 1);
         ++next_;
         ++count;
       }
@@ -54,6 +57,12 @@ class PassRays {
   /// together. Single points are not kept.
   static bool are_few(std::uint32_t samples) {
     return samples >= lane_count && samples <= packet_size;
+  }
+
+  void set_samples(RayPlaces& places, std::size_t first, std::size_t count) const {
+    if (!with_numbers_) return;
+    const PixelPlace& pixel = pixels_[pixel_ - 1];
+    places.set_samples(first, count, {pixel.x, pixel.y, next_});
   }
 
   void begin_pixel() {
@@ -119,6 +128,7 @@ class PassRays {
   const CameraRays& camera_;
   const FilterPlaces& filter_;
   bool with_lens_;
+  bool with_numbers_;
   std::uint64_t seed_;
   std::uint32_t begin_;
   std::uint32_t end_;

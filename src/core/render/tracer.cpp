@@ -33,6 +33,19 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
   add(rays.samples, light);
 }
 
+/// Adds lights that rays see themselves.
+void add_visible_lights(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
+  PathLight light{.rays = hits.seen & hits.on_light, .colors = {}};
+  for_each_ray(light.rays, [&](std::size_t i) {
+    light.colors[i / lane_count].set(i % lane_count,
+                                     context.frame.lights()[hits.lights[i]].color());
+  });
+  RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask) {
+    light.colors[group] = rays.weights[group] * light.colors[group];
+  });
+  add(rays.samples, light);
+}
+
 /// Writes down what camera rays have met, also where a medium before it lets no light through.
 void report(const PathHits& hits, const Surfaces& surfaces, std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
@@ -56,16 +69,18 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
 }
 
 void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
-                   std::span<FirstHit> first_hits) {
-  PathRays* rays = &start(camera_rays, samples);
+                   std::span<const SampleId> ids, std::span<FirstHit> first_hits) {
+  PathRays* rays = &start(camera_rays, samples, ids);
   PathRays* next = &rays_[1];
   while (!rays->empty()) {
     PathHits& hits = intersect(context_, *rays, hits_);
+    if (context_.frame.shows_lights()) meet_lights(context_, *rays, hits);
     absorb(context_, *rays, hits);
     const Surfaces& surfaces = surfaces_of(context_, *rays, hits, !first_hits.empty(), surfaces_);
     report(hits, surfaces, std::exchange(first_hits, {}));
     if (context_.identifies) identify_hits(context_.data, *rays, hits);
     add_background(context_, *rays, hits);
+    if (hits.on_light != 0) add_visible_lights(context_, *rays, hits);
     add(rays->samples, direct_light(context_, *rays, surfaces, shadow_rays_));
     next_rays(context_, *rays, hits, surfaces, *next);
     std::swap(rays, next);
@@ -88,7 +103,8 @@ void Tracer::look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> p
   }
 }
 
-PathRays& Tracer::start(std::span<const RayLanes> camera_rays, std::span<Sample> samples) {
+PathRays& Tracer::start(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
+                        std::span<const SampleId> ids) {
   PathRays& rays = rays_[0];
   rays.count = samples.size();
   Frame::set_camera_rays(camera_rays, rays.batch);
@@ -98,6 +114,7 @@ PathRays& Tracer::start(std::span<const RayLanes> camera_rays, std::span<Sample>
     rays.samples[i] = &samples[i];
     rays.works[i] = &context_.work.samples[i];
     rays.works[i]->rays = 1;
+    rays.works[i]->id = ids.empty() ? SampleId{} : ids[i];
     rays.states[i] = camera_state_;
   }
   if (context_.data.features().transparency) start_media(rays);

@@ -21,11 +21,12 @@ class Tracer {
   /// Gives samples an identity from now on.
   void identify() { context_.identifies = true; }
 
-  /// Traces as many camera rays as there are samples, up to packet_size. Says of each what it meets
-  /// first, if there is room for that in `first_hits`. Throws Error (cancelled) soon after the
-  /// progress says so.
+  /// Traces as many camera rays as there are samples, up to packet_size. `ids` has those of the
+  /// samples, or nothing: then all draw the same numbers. Says of each what it meets first, if
+  /// there is room for that in `first_hits`. Throws Error (cancelled) soon after the progress says
+  /// so.
   void trace(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
-             std::span<FirstHit> first_hits = {});
+             std::span<const SampleId> ids = {}, std::span<FirstHit> first_hits = {});
 
   /// Finds where as many camera rays as there are places meet something first, and follows no
   /// light.
@@ -33,7 +34,8 @@ class Tracer {
 
  private:
   /// Returns the rays of the first round.
-  PathRays& start(std::span<const RayLanes> camera_rays, std::span<Sample> samples);
+  PathRays& start(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
+                  std::span<const SampleId> ids);
   /// Finds the solids that these start in.
   void start_media(PathRays& rays);
 

@@ -13,6 +13,7 @@
 #include "core/render/first_hit.hpp"
 #include "core/render/media_along_ray.hpp"
 #include "core/sampling/pixel_samples.hpp"
+#include "core/sampling/sample_numbers.hpp"
 #include "core/shading/rgb.hpp"
 
 namespace crt::core {
@@ -61,6 +62,7 @@ struct SampleWork {
   MediaLists media;
   PathStack pending;  ///< what follows when that is done
   int rays = 0;       ///< the number of rays followed
+  SampleId id;        ///< for the numbers that it draws
 };
 
 /// A CutoffSum is the weight of rays that were not followed, of some pixels.

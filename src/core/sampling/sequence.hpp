@@ -135,9 +135,21 @@ class PixelSequence {
  public:
   /// Makes the sequence of no pixel.
   PixelSequence() = default;
-  PixelSequence(std::uint64_t seed, int x, int y)
-      : seeds_(philox4x32_10({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, use},
-                             key_of(seed))) {}
+  PixelSequence(std::uint64_t seed, int x, int y) : PixelSequence(seed, x, y, 0) {}
+
+  /// Makes a sequence of a pixel for some decision of its samples after their place and lens. The
+  /// sequences of several decisions are independent: the points of each have an order of their own.
+  ///
+  /// Source: Burley, Practical hash-based Owen scrambling, 2020, section 4 (padding).
+  static PixelSequence of_decision(std::uint64_t seed, int x, int y, std::uint32_t decision) {
+    return PixelSequence(seed, x, y, decision + 1);
+  }
+  /// Returns four numbers in [0, 1) of such a sequence.
+  std::array<double, sequence_dimensions> numbers(std::uint32_t index) const {
+    using namespace sequence_detail;
+    const std::uint32_t order = seeds_[0] ^ (seeds_[3] << 16 | seeds_[3] >> 16);
+    return coordinates<sequence_dimensions>(reversed(scrambled_upwards(reversed(index), order)));
+  }
 
   /// Pixel is a pixel's position. of_each() makes the sequences of four pixels at once.
   struct Pixel {
@@ -190,6 +202,11 @@ class PixelSequence {
   }
 
  private:
+  PixelSequence(std::uint64_t seed, int x, int y, std::uint32_t decision)
+      : seeds_(philox4x32_10(
+            {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), decision, use},
+            key_of(seed))) {}
+
   /// Returns the bits that an index flips, not scrambled.
   template <std::size_t dimensions>
   static std::array<std::uint32_t, dimensions> bits_of(std::uint32_t index) {

@@ -2,18 +2,34 @@
 #pragma once
 
 #include "core/math/vector_lanes.hpp"
+#include "core/ray/plain_ray.hpp"
 #include "core/shading/rgb.hpp"
 #include "crt/light.hpp"
 #include "crt/settings.hpp"
 
 namespace crt::core {
 
+/// LightNumbers say which point of a light is seen, from as many points as there are lanes: two
+/// numbers each in [0, 1).
+struct LightNumbers {
+  Lanes u{};
+  Lanes v{};
+};
+
 /// LightSamples are a light seen from as many points as there are lanes, as if nothing obstructed
 /// it.
 struct LightSamples {
   VectorLanes directions;  ///< to the light, unit length
   Lanes distances{};       ///< to the light; infinite for a parallel one
-  Lanes intensities{};     ///< what distance and the light's own shape leave of it
+  /// Says what distance and the light's own shape leave of it. Of a light with a size it is the
+  /// projected solid angle over pi, over the density of the sample.
+  Lanes intensities{};
+};
+
+/// A LightMet is where rays meet a light that is seen itself.
+struct LightMet {
+  LaneMask met{};
+  Lanes t{};
 };
 
 class PreparedLight {
@@ -25,22 +41,42 @@ class PreparedLight {
   /// Returns what every point gets of the light, lit or not, if it mirrors nothing.
   Rgb ambient() const { return ambient_ * color_; }
 
+  /// Returns whether the light has a size, so that sample() needs numbers.
+  bool has_size() const { return has_size_; }
+  /// Returns whether meet() ever finds anything.
+  bool is_visible() const { return is_visible_; }
+
   /// Samples the light at points and returns where it shines. `path_lengths` are the lengths of the
   /// paths from the camera to the points, over all bounces.
-  LaneMask sample(const VectorLanes& points, const Lanes& path_lengths, LightSamples& light) const;
+  LaneMask sample(const VectorLanes& points, const Lanes& path_lengths, const LightNumbers& numbers,
+                  LightSamples& light) const;
+
+  /// Returns where lines first meet the light's shining side after their origin. t is off by some
+  /// roundings of the coordinates.
+  LightMet meet(const RayLanes& lines) const;
 
  private:
   explicit PreparedLight(const PointLight& light);
   explicit PreparedLight(const ParallelLight& light);
   explicit PreparedLight(const SpotLight& light);
   explicit PreparedLight(const CylinderLight& light);
+  explicit PreparedLight(const SphereLight& light);
+  explicit PreparedLight(const DiscLight& light);
+  explicit PreparedLight(const RectangleLight& light);
 
-  enum class Kind { point, parallel, spot, cylinder };
+  enum class Kind { point, parallel, spot, cylinder, ball, sun, sphere, disc, rectangle };
 
   /// Returns how far the light has come along its axis. It is 0 beside the cylinder, and not above
   /// 0 before the cylinder begins.
   Lanes way_in_cylinder(const VectorLanes& points) const;
   Lanes cone_share(const VectorLanes& to_light) const;
+  /// Fill in directions, distances and intensities of lights with a size.
+  void sample_ball(const VectorLanes& points, const LightNumbers& numbers,
+                   LightSamples& light) const;
+  void sample_flat(const VectorLanes& points, const VectorLanes& on_light,
+                   LightSamples& light) const;
+  LightMet meet_sphere(const RayLanes& lines) const;
+  LightMet meet_plane(const RayLanes& lines) const;
 
   Kind kind_;
   Rgb color_;
@@ -53,6 +89,12 @@ class PreparedLight {
   /// The versine 1 - cos of a cone's half angle separates narrow cones, unlike the cosine.
   double rim_versine_ = 0;
   double fading_versine_ = 0;  ///< from the cone's edge to where the light is full
+  bool has_size_ = false;
+  bool is_visible_ = false;
+  bool is_two_sided_ = false;
+  double area_over_pi_ = 0;  ///< of a flat light
+  Vec3 edge_a_{0, 0, 0};     ///< of a rectangle; of a disc they are radii across each other
+  Vec3 edge_b_{0, 0, 0};
 };
 
 }  // namespace crt::core

@@ -1,0 +1,31 @@
+// Numbers are drawn for what a sample decides after its place and lens: which point of a light it
+// sees, where a diffuse ray goes.
+#pragma once
+
+#include "core/sampling/sequence.hpp"
+
+namespace crt::core {
+
+/// A SampleId says which sample of a pixel it is.
+struct SampleId {
+  int x = 0;  ///< of the pixel
+  int y = 0;
+  std::uint32_t index = 0;
+};
+
+/// A SampleDecision is one that a sample takes at a ray that it follows. Each has four numbers.
+struct SampleDecision {
+  std::uint32_t ray = 0;   ///< the ray's number within the sample
+  std::uint32_t kind = 0;  ///< below max_kinds
+  static constexpr std::uint32_t max_kinds = 1u << 15;
+};
+
+/// Returns numbers in [0, 1). Over the samples of a pixel they are distributed evenly.
+inline std::array<double, sequence_dimensions> sample_numbers(std::uint64_t seed,
+                                                              const SampleId& sample,
+                                                              const SampleDecision& decision) {
+  const std::uint32_t number = decision.ray * SampleDecision::max_kinds + decision.kind;
+  return PixelSequence::of_decision(seed, sample.x, sample.y, number).numbers(sample.index);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,167 @@
+// Lights with a size are sampled here by the numbers of a pixel's samples, and give what formulas
+// say.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/sampling/sample_numbers.hpp"
+#include "core/shading/prepared_light.hpp"
+
+using namespace crt::core;
+using crt::Vec3;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Seen {
+  double brightness = 0;  ///< of a white surface, mean over samples
+  double largest = 0;     ///< of one sample
+  double nearest = 0;     ///< the least distance to the light
+};
+
+/// Samples a light at a point of a surface with such a normal.
+Seen seen_from(const crt::Light& light, const Vec3& point, const Vec3& normal,
+               std::uint32_t samples = 1u << 16) {
+  const PreparedLight prepared(light, crt::FalloffModel::light);
+  const VectorLanes points = lanes_of(point);
+  Seen seen{.nearest = std::numeric_limits<double>::infinity()};
+  for (std::uint32_t i = 0; i < samples; i += lane_count) {
+    LightNumbers numbers;
+    for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
+      const auto drawn = sample_numbers(1, {3, 5, i + lane}, {.ray = 2, .kind = 7});
+      numbers.u[lane] = drawn[0];
+      numbers.v[lane] = drawn[1];
+    }
+    LightSamples sampled;
+    const std::uint32_t lit = mask_of(prepared.sample(points, Lanes{}, numbers, sampled));
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if ((lit >> lane & 1u) == 0) continue;
+      const Vec3 direction = sampled.directions.lane(lane);
+      REQUIRE(std::abs(glm::length(direction) - 1) < 1e-14);
+      const double share = sampled.intensities[lane] * std::max(0.0, glm::dot(direction, normal));
+      seen.brightness += share / samples;
+      seen.largest = std::max(seen.largest, share);
+      seen.nearest = std::min(seen.nearest, double{sampled.distances[lane]});
+    }
+  }
+  return seen;
+}
+
+/// Returns what a polygon of radiance 1 gives a surface at the origin, by Lambert's formula.
+double irradiance_over_pi(const std::vector<Vec3>& corners, const Vec3& normal) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 a = glm::normalize(corners[i]);
+    const Vec3 b = glm::normalize(corners[(i + 1) % corners.size()]);
+    sum += std::acos(glm::dot(a, b)) * glm::dot(glm::normalize(glm::cross(a, b)), normal);
+  }
+  return std::abs(sum) / (2 * pi);
+}
+
+}  // namespace
+
+TEST_CASE("a sphere light gives its projected solid angle over pi") {
+  for (const double distance : {1.25, 2.0, 10.0, 1e4}) {
+    const crt::SphereLight light{.center = {0, distance, 0}, .radius = 1};
+    for (const double tilt : {0.0, 0.3, 0.5}) {
+      // All of it is above the surface's horizon if the tilt leaves room for its half angle.
+      const double half_angle = std::asin(1 / distance);
+      if (tilt + half_angle > pi / 2) continue;
+      const Seen seen = seen_from(light, {0, 0, 0}, {std::sin(tilt), std::cos(tilt), 0});
+      const double exact = std::cos(tilt) / (distance * distance);
+      CHECK(seen.brightness == doctest::Approx(exact).epsilon(1e-5));
+      CHECK(seen.nearest == doctest::Approx(distance - 1).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("no sample of a sphere light is much brighter than others, however near") {
+  const Seen seen = seen_from(crt::SphereLight{.center = {0, 1.001, 0}}, {0, 0, 0}, {0, 1, 0});
+  CHECK(seen.largest <= 2);
+  CHECK(seen.brightness == doctest::Approx(1 / (1.001 * 1.001)).epsilon(1e-4));
+}
+
+TEST_CASE("a disc light gives what the formula of parallel discs says") {
+  for (const double distance : {0.5, 2.0, 50.0}) {
+    const crt::DiscLight light{.center = {0, distance, 0}, .normal = {0, -3, 0}, .radius = 2};
+    const double exact = 4 / (4 + distance * distance);
+    CHECK(seen_from(light, {0, 0, 0}, {0, 1, 0}).brightness ==
+          doctest::Approx(exact).epsilon(2e-4));
+    CHECK(seen_from(light, {0, 2 * distance, 0}, {0, -1, 0}).brightness == 0);
+    crt::DiscLight both = light;
+    both.two_sided = true;
+    CHECK(seen_from(both, {0, 2 * distance, 0}, {0, -1, 0}).brightness ==
+          doctest::Approx(exact).epsilon(2e-4));
+  }
+}
+
+TEST_CASE("a rectangle light gives what Lambert's formula says") {
+  const Vec3 corner(-1, 2, 0.5);
+  for (const Vec3& edge_b : {Vec3(0, 0, 1.5), Vec3(0.7, -0.4, 1.5)}) {
+    const Vec3 edge_a(2, 0.1, 0);
+    const crt::RectangleLight light{
+        .corner = corner, .edge_a = edge_a, .edge_b = edge_b, .two_sided = true};
+    const double exact = irradiance_over_pi(
+        {corner, corner + edge_a, corner + edge_a + edge_b, corner + edge_b}, {0, 1, 0});
+    CHECK(seen_from(light, {0, 0, 0}, {0, 1, 0}).brightness ==
+          doctest::Approx(exact).epsilon(1e-5));
+  }
+  // x and y as edges shine towards z.
+  const crt::RectangleLight towards_z{
+      .corner = {0, 0, 0}, .edge_a = {1, 0, 0}, .edge_b = {0, 1, 0}};
+  CHECK(seen_from(towards_z, {0.5, 0.5, 1}, {0, 0, -1}).brightness > 0.1);
+  CHECK(seen_from(towards_z, {0.5, 0.5, -1}, {0, 0, 1}).brightness == 0);
+}
+
+TEST_CASE("point and parallel lights with a size give what faces them as much as without") {
+  const crt::PointLight ball{.origin = {0, 3, 0}, .radius = 1.5};
+  CHECK(seen_from(ball, {0, 0, 0}, {0, 1, 0}).brightness == doctest::Approx(1).epsilon(1e-5));
+  CHECK(seen_from(ball, {0, 0, 0}, {0.6, 0.8, 0}).brightness == doctest::Approx(0.8).epsilon(1e-5));
+  CHECK(seen_from(ball, {0, 0, 0}, {0, 1, 0}).nearest == doctest::Approx(1.5).epsilon(1e-3));
+  // Within the ball it is a point.
+  const Seen within = seen_from(ball, {0, 2.5, 0}, {0, 1, 0}, 16);
+  CHECK(within.brightness == doctest::Approx(1).epsilon(1e-12));
+  CHECK(within.nearest == 0.5);
+
+  const crt::ParallelLight sun{.from = {0, 1, 0}, .pointing = {0, 0, 0}, .angle = 0.5};
+  CHECK(seen_from(sun, {7, 0, 0}, {0, 1, 0}).brightness == doctest::Approx(1).epsilon(1e-5));
+  CHECK(seen_from(sun, {7, 0, 0}, {0, 0.6, 0.8}).brightness == doctest::Approx(0.6).epsilon(1e-5));
+  CHECK(std::isinf(seen_from(sun, {0, 0, 0}, {0, 1, 0}, 4).nearest));
+}
+
+TEST_CASE("a fading ball fades as its center does") {
+  const crt::PointLight ball{.origin = {0, 4, 0}, .falloff = 8, .radius = 1e-3};
+  CHECK(seen_from(ball, {0, 0, 0}, {0, 1, 0}).brightness == doctest::Approx(0.5).epsilon(1e-3));
+}
+
+TEST_CASE("lines meet the shining sides of lights that are seen") {
+  const auto met_at = [](const crt::Light& light, const Vec3& origin, const Vec3& direction) {
+    const PreparedLight prepared(light, crt::FalloffModel::light);
+    const LightMet met = prepared.meet({lanes_of(origin), lanes_of(direction)});
+    return (mask_of(met.met) & 1u) != 0 ? double{met.t[0]} : -1;
+  };
+  const crt::SphereLight sphere{.center = {0, 0, 5}, .radius = 2};
+  CHECK(met_at(sphere, {0, 0, 0}, {0, 0, 0.5}) == doctest::Approx(6));
+  CHECK(met_at(sphere, {0, 0, 5}, {0, 0, 1}) == -1);  // from within
+  CHECK(met_at(sphere, {0, 0, 9}, {0, 0, 1}) == -1);
+  CHECK(met_at(sphere, {0, 2.001, 0}, {0, 0, 1}) == -1);
+  const crt::DiscLight disc{.center = {0, 5, 0}, .normal = {0, -1, 0}, .radius = 1};
+  CHECK(met_at(disc, {0.99, 0, 0}, {0, 1, 0}) == 5);
+  CHECK(met_at(disc, {1.01, 0, 0}, {0, 1, 0}) == -1);
+  CHECK(met_at(disc, {0, 9, 0}, {0, -1, 0}) == -1);
+  CHECK(met_at(disc, {0, 5.5, 0}, {1, 0, 0}) == -1);
+  const crt::RectangleLight rectangle{
+      .corner = {0, 5, 0}, .edge_a = {2, 0, 0}, .edge_b = {1, 0, 1}};
+  CHECK(met_at(rectangle, {0.5, 9, 0.25}, {0, -1, 0}) == -1);
+  CHECK(met_at(rectangle, {0.5, 0, 0.25}, {0, 1, 0}) == 5);
+  CHECK(met_at(rectangle, {0.5, 0, 0.75}, {0, 1, 0}) == -1);
+  crt::RectangleLight both = rectangle;
+  both.two_sided = true;
+  CHECK(met_at(both, {0.5, 9, 0.25}, {0, -2, 0}) == 2);
+}
