@@ -306,18 +306,18 @@ typedef struct crt_light {
                          `origin` */
   double color[3];    /**< linear RGB, >= 0, may pass 1; default 1. Of what has a surface it is the
                          radiance */
-  double angle;       /**< spot: full angle of the cone, in (0, 2 pi]; 0 (default) is pi / 3. Parallel:
-                         how wide it is seen, in [0, pi], which softens shadows; default 0 */
+  double angle;    /**< spot: full angle of the cone, in (0, 2 pi]; 0 (default) is pi / 3. Parallel:
+                      how wide it is seen, in [0, pi], which softens shadows; default 0 */
   double penumbra; /**< spot: width of its soft edge inwards, radians of the half angle; default pi
                       / 36 */
-  double radius;   /**< cylinder, sphere, disc: > 0, and 0 (default) is 1. Point: at 0 a point, above
-                      it a ball that softens shadows and is not seen */
-  double falloff;  /**< 0 (default) or less: distance does not matter; else the light fades as
-                      falloff / D^2 */
-  double ambient;  /**< share of the colour that every point gets, >= 0; default 0 */
-  double edge_a[3]; /**< rectangle: not 0; default (1, 0, 0). Since 1.1, as what follows. */
-  double edge_b[3]; /**< rectangle: not parallel to `edge_a`; default (0, 0, 1) */
-  int32_t visible;  /**< sphere, disc, rectangle: whether it is seen itself; default 1 */
+  double radius;  /**< cylinder, sphere, disc: > 0, and 0 (default) is 1. Point: at 0 a point, above
+                     it a ball that softens shadows and is not seen */
+  double falloff; /**< 0 (default) or less: distance does not matter; else the light fades as
+                     falloff / D^2 */
+  double ambient; /**< share of the colour that every point gets, >= 0; default 0 */
+  double edge_a[3];  /**< rectangle: not 0; default (1, 0, 0). Since 1.1, as what follows. */
+  double edge_b[3];  /**< rectangle: not parallel to `edge_a`; default (0, 0, 1) */
+  int32_t visible;   /**< sphere, disc, rectangle: whether it is seen itself; default 1 */
   int32_t two_sided; /**< disc, rectangle: whether it shines to both sides; default 0 */
   double scale;      /**< environment: factor of the background's light; default 1 */
 } crt_light;

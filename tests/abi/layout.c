@@ -91,7 +91,7 @@ AT(crt_mesh_report, shells, 64);
 AT(crt_mesh_report, overlapping_shells, 72);
 AT(crt_mesh_report, first_overlap, 80);
 
-SIZE(crt_light, 120);
+SIZE(crt_light, 184);
 AT(crt_light, struct_size, 0);
 AT(crt_light, type, 4);
 AT(crt_light, origin, 8);
@@ -102,6 +102,11 @@ AT(crt_light, penumbra, 88);
 AT(crt_light, radius, 96);
 AT(crt_light, falloff, 104);
 AT(crt_light, ambient, 112);
+AT(crt_light, edge_a, 120);
+AT(crt_light, edge_b, 144);
+AT(crt_light, visible, 168);
+AT(crt_light, two_sided, 172);
+AT(crt_light, scale, 176);
 
 SIZE(crt_camera, 104);
 AT(crt_camera, struct_size, 0);

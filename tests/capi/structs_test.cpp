@@ -204,13 +204,19 @@ TEST_CASE("what is asked for is written as far as the caller's struct goes") {
 TEST_CASE("what a scene was given it gives back") {
   const SceneHandle scene = new_scene();
   for (const std::int32_t type :
-       {CRT_LIGHT_POINT, CRT_LIGHT_PARALLEL, CRT_LIGHT_SPOT, CRT_LIGHT_CYLINDER}) {
+       {CRT_LIGHT_POINT, CRT_LIGHT_PARALLEL, CRT_LIGHT_SPOT, CRT_LIGHT_CYLINDER, CRT_LIGHT_SPHERE,
+        CRT_LIGHT_DISC, CRT_LIGHT_RECTANGLE}) {
     crt_light light;
     REQUIRE(crt_light_init_type(&light, sizeof light, type) == CRT_OK);
     CHECK(light.type == type);
     light.origin[2] = -4;
     light.color[0] = 2.5;
-    light.ambient = 0.25;
+    if (type <= CRT_LIGHT_CYLINDER) light.ambient = 0.25;
+    if (type == CRT_LIGHT_POINT) light.radius = 0.5;
+    if (type == CRT_LIGHT_PARALLEL) light.angle = 0.5;
+    if (type == CRT_LIGHT_RECTANGLE) light.edge_a[0] = 3;
+    if (type == CRT_LIGHT_DISC) light.two_sided = 1;
+    if (type == CRT_LIGHT_SPHERE) light.visible = 0;
     REQUIRE(crt_scene_add_light(scene.get(), &light) == CRT_OK);
     crt_light back;
     back.struct_size = sizeof back;
@@ -322,4 +328,50 @@ TEST_CASE("the defaults are those of the C++ interface") {
   CHECK(wood.color_a[0] == 0.6);
   CHECK(wood.octaves == 3);
   CHECK(wood.turbulence == 0.1);
+}
+
+TEST_CASE("a light whose type is set later has that type's radius and angle") {
+  const SceneHandle scene = new_scene();
+  crt_light light;
+  REQUIRE(crt_light_init(&light, sizeof light) == CRT_OK);
+  crt_light back;
+  back.struct_size = sizeof back;
+  const auto kept = [&](std::int32_t type) {
+    light.type = type;
+    light.origin[1] = 2;
+    REQUIRE(crt_scene_clear_lights(scene.get()) == CRT_OK);
+    REQUIRE(crt_scene_add_light(scene.get(), &light) == CRT_OK);
+    REQUIRE(crt_scene_get_light(scene.get(), 0, &back) == CRT_OK);
+  };
+  kept(CRT_LIGHT_CYLINDER);
+  CHECK(back.radius == 1);
+  kept(CRT_LIGHT_SPHERE);
+  CHECK(back.radius == 1);
+  kept(CRT_LIGHT_SPOT);
+  CHECK(back.angle == doctest::Approx(1.0471975511965976));
+  kept(CRT_LIGHT_POINT);
+  CHECK(back.radius == 0);
+  kept(CRT_LIGHT_PARALLEL);
+  CHECK(back.angle == 0);
+}
+
+TEST_CASE("points and suns of a program of 1.0 stay as sharp as they were") {
+  constexpr std::uint32_t size_in_1_0 = 120;
+  const SceneHandle scene = new_scene();
+  crt_light light;
+  REQUIRE(crt_light_init(&light, size_in_1_0) == CRT_OK);
+  CHECK(light.struct_size == size_in_1_0);
+  CHECK(light.radius == 1);
+  CHECK(light.angle > 1);
+  crt_light back;
+  back.struct_size = sizeof back;
+  for (const std::int32_t type : {CRT_LIGHT_POINT, CRT_LIGHT_PARALLEL}) {
+    light.type = type;
+    light.origin[1] = 2;
+    REQUIRE(crt_scene_clear_lights(scene.get()) == CRT_OK);
+    REQUIRE(crt_scene_add_light(scene.get(), &light) == CRT_OK);
+    REQUIRE(crt_scene_get_light(scene.get(), 0, &back) == CRT_OK);
+    CHECK(back.radius == 0);
+    CHECK(back.angle == 0);
+  }
 }

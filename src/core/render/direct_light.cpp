@@ -75,7 +75,7 @@ class NumbersOfLights {
 
  private:
   void draw() {
-    const auto kind = (light_ / 2) % SampleDecision::max_kinds;
+    const auto kind = light_ / 2 % SampleDecision::kinds_of_lights;
     for_each_ray(some_, [&](std::size_t i) {
       const SampleWork& work = *rays_.works[i];
       const auto number = static_cast<std::uint32_t>(work.rays);

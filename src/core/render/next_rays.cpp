@@ -1,5 +1,6 @@
 #include "core/render/next_rays.hpp"
 
+#include "core/geometry/disc_point.hpp"
 #include "core/math/vector.hpp"
 #include "core/render/behind_surfaces.hpp"
 #include "core/shading/fresnel.hpp"
@@ -23,6 +24,7 @@ struct Branch {
 struct Split {
   Branch mirrored;
   Branch refracted;
+  Branch diffuse;
   std::array<MediaLists::List, lane_count> media_behind;
 };
 
@@ -30,6 +32,38 @@ struct Split {
 /// bounces off the face once more.
 VectorLanes kept_on_side(const VectorLanes& direction, const VectorLanes& side) {
   return select(dot(direction, side) < 0.0, mirrored(direction, side), direction);
+}
+
+/// Returns rays that some of a group of surfaces send on as they send diffuse light back: in random
+/// directions, most of them near the normal. The cosine in their density leaves a weight of the
+/// surface's diffuse colour.
+Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const SurfaceGroup& from,
+                    std::size_t group, RayMask some) {
+  const Settings& settings = context.frame.settings();
+  Branch branch;
+  for_each_ray(some & mask_of(from.phong.diffuse > 0.0), [&](std::size_t lane) {
+    const std::size_t ray = group * lane_count + lane;
+    if (rays.states[ray].diffuse_bounces < settings.indirect) branch.rays |= RayMask{1} << lane;
+  });
+  if (branch.rays == 0) return branch;
+  Lanes u;
+  Lanes v;
+  for_each_ray(branch.rays, [&](std::size_t lane) {
+    const SampleWork& work = *rays.works[group * lane_count + lane];
+    const auto numbers =
+        sample_numbers(settings.seed, work.id,
+                       {static_cast<std::uint32_t>(work.rays), SampleDecision::diffuse_direction});
+    u[lane] = numbers[0];
+    v[lane] = numbers[1];
+  });
+  const auto [x, y] = point_of_disc(u, v);
+  const Lanes upwards = sqrt(max(Lanes{}, 1.0 - x * x - y * y));
+  const VectorLanes& normal = from.phong.normal;
+  const auto [a, b] = directions_across(normal);
+  branch.directions = kept_on_side(x * a + y * b + upwards * normal, from.face_normal);
+  branch.weights = from.phong.diffuse * rays.weights[group] * from.phong.color;
+  branch.rays &= ~mask_of(is_black(branch.weights));
+  return branch;
 }
 
 /// Finds the rays that go on from some of a group of surfaces.
@@ -56,19 +90,21 @@ Split split(TraceContext& context, const PathRays& rays, const PathHits& hits,
   split.mirrored = {.rays = some & mask_of(mirrored_share > 0.0),
                     .directions = kept_on_side(mirrored(view, normal), from.face_normal),
                     .weights = mirrored_share * weights};
+  if (context.frame.settings().indirect > 0)
+    split.diffuse = diffuse_rays(context, rays, from, group, some);
   return split;
 }
 
 /// Asks whether a ray of such a weight is worth following after another one. If it is not, it
 /// counts as dropped, with the most that it may weigh after all that brightens light behind it.
 bool is_worth_it(TraceContext& context, const PathState& before, const Rgb& weight,
-                 Sample& sample) {
+                 bool is_within_depth, Sample& sample) {
   const Settings& settings = context.frame.settings();
   const bool is_brightened = context.data.features().gain != 1;
   const Rgb most = is_brightened ? context.frame.gain_behind(before.bounces) * weight : weight;
   const double least = settings.min_weight;
   const bool is_weak = most.x < least && most.y < least && most.z < least;
-  if (!is_weak && before.bounces < settings.recursion_depth) return true;
+  if (!is_weak && is_within_depth) return true;
   RenderStats& stats = context.work.stats;
   ++(is_weak ? stats.rays_below_min_weight : stats.rays_beyond_depth);
   sample.dropped += largest_component(most);
@@ -93,9 +129,9 @@ bool is_worth_it(TraceContext& context, const PathState& before, const Rgb& weig
   work.media.release(ray.path.media_mark);
 }
 
-/// Sends rays of some of a group of surfaces on. A sample's ray through the surface, or else its
-/// mirrored one, is taken into the next round. If there are both, the latter waits on the sample's
-/// stack. Returns which samples got any.
+/// Sends rays of some of a group of surfaces on. Of a sample's diffuse ray, its mirrored one and
+/// the one through the surface the last is taken into the next round. The others wait on the
+/// sample's stack. Returns which samples got any.
 RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hits,
                 const Surfaces& surfaces, std::size_t group, RayMask some, PathRays& next) {
   const Split parts = split(context, rays, hits, surfaces, group, some);
@@ -107,9 +143,11 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
     const PathState& state = rays.states[ray];
     SampleWork& work = *rays.works[ray];
     Sample& sample = *rays.samples[ray];
+    const bool is_within_depth = state.bounces < context.frame.settings().recursion_depth;
     const auto is_followed = [&](const Branch& branch) {
+      const bool within = is_within_depth || &branch == &parts.diffuse;
       return (branch.rays >> lane & 1u) != 0 &&
-             is_worth_it(context, state, branch.weights.lane(lane), sample);
+             is_worth_it(context, state, branch.weights.lane(lane), within, sample);
     };
     // It is filled in place, which is faster than a copy.
     const auto describe = [&](PathRay& ray_on, const Branch& branch, const StartPoint& start,
@@ -120,24 +158,36 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       ray_on.weight = branch.weights.lane(lane);
       ray_on.path = path;
     };
-    const auto describe_mirrored = [&](PathRay& ray_on) {
-      describe(ray_on, parts.mirrored, from.start(),
-               {RayKind::reflection, state.bounces + 1, from.path_length(), state.media,
-                state.media_mark});
-    };
+    const bool is_diffuse = is_followed(parts.diffuse);
     const bool is_mirrored = is_followed(parts.mirrored);
     const bool goes_through = is_followed(parts.refracted);
-    if (!is_mirrored && !goes_through) return;
+    if (!is_diffuse && !is_mirrored && !goes_through) return;
     sent |= RayMask{1} << lane;
     PathRay last;
+    if (is_diffuse) {
+      PathState diffuse = state;
+      diffuse.kind = RayKind::diffuse;
+      ++diffuse.diffuse_bounces;
+      diffuse.path_length = from.path_length();
+      const bool waits = is_mirrored || goes_through;
+      describe(waits ? work.pending.push() : last, parts.diffuse, from.start(), diffuse);
+    }
+    if (is_mirrored) {
+      PathState mirrored = state;
+      mirrored.kind = RayKind::reflection;
+      ++mirrored.bounces;
+      mirrored.path_length = from.path_length();
+      describe(goes_through ? work.pending.push() : last, parts.mirrored, from.start(), mirrored);
+    }
     if (goes_through) {
-      if (is_mirrored) describe_mirrored(work.pending.push());
-      describe(last, parts.refracted, from.start_behind(),
-               {RayKind::refraction, state.bounces + 1, from.path_length(),
-                parts.media_behind[lane], work.media.mark()});
+      PathState through = state;
+      through.kind = RayKind::refraction;
+      ++through.bounces;
+      through.path_length = from.path_length();
+      through.media = parts.media_behind[lane];
+      through.media_mark = work.media.mark();
+      describe(last, parts.refracted, from.start_behind(), through);
       stats.media_changes += context.data.is_solid(hits.hits[ray]);
-    } else {
-      describe_mirrored(last);
     }
     take(stats, last, work, sample, next);
   });
@@ -151,9 +201,11 @@ void next_rays(TraceContext& context, const PathRays& rays, const PathHits& hits
   next.count = 0;
   next.batch.with_starts = 0;
   const Features& features = context.data.features();
-  if (!features.reflection && !features.transparency) return;
+  const bool is_indirect = context.frame.settings().indirect > 0;
+  if (!features.reflection && !features.transparency && !is_indirect) return;
   for (std::size_t group = 0; group * lane_count < rays.count; ++group) {
-    const RayMask some = RayPacket::lanes(surfaces.rays, group) & surfaces.groups[group].sending_on;
+    RayMask some = RayPacket::lanes(surfaces.rays, group);
+    if (!is_indirect) some &= surfaces.groups[group].sending_on;
     const RayMask sent = some == 0 ? 0 : send_on(context, rays, hits, surfaces, group, some, next);
     for_each_ray(RayPacket::lanes(rays.all(), group) & ~sent, [&](std::size_t lane) {
       const std::size_t ray = group * lane_count + lane;

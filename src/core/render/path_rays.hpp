@@ -37,6 +37,18 @@ struct PathRays {
     }
     return mask;
   }
+  /// Returns those of a kind.
+  RayMask of_kind(RayKind kind) const {
+    RayMask mask = 0;
+    for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].kind == kind) << i;
+    return mask;
+  }
+  /// Returns those that come after a diffuse bounce.
+  RayMask after_diffuse() const {
+    RayMask mask = 0;
+    for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].diffuse_bounces > 0) << i;
+    return mask;
+  }
   bool are_from_camera() const { return states[0].kind == RayKind::camera; }
 
   /// Adds the ray that a sample follows next.

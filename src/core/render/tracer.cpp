@@ -16,9 +16,10 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
 }
 
 /// Adds what the rays see that hit nothing. Only to the camera the background may be transparent.
+/// It is seen, and lights nothing.
 void add_background(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
   const bool is_seen_through = rays.are_from_camera();
-  PathLight light{.rays = hits.on_background(), .colors = {}};
+  PathLight light{.rays = hits.on_background() & ~rays.after_diffuse(), .colors = {}};
   RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask lanes) {
     const ColorLanes seen =
         context.data.background().colors(rays.batch.lines[group].direction, lanes);

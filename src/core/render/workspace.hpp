@@ -18,12 +18,13 @@
 
 namespace crt::core {
 
-enum class RayKind : std::uint8_t { camera, reflection, refraction };
+enum class RayKind : std::uint8_t { camera, reflection, refraction, diffuse };
 
 /// A PathState is what a ray has behind it.
 struct PathState {
   RayKind kind = RayKind::camera;
-  int bounces = 0;         ///< before this ray
+  int bounces = 0;  ///< in mirrors and glass, before this ray
+  int diffuse_bounces = 0;
   double path_length = 0;  ///< from the camera to the ray's origin
   MediaLists::List media = MediaLists::empty;
   /// This is the MediaLists::mark() when the ray was put aside. It needs no lists made later.

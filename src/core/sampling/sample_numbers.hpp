@@ -17,7 +17,11 @@ struct SampleId {
 struct SampleDecision {
   std::uint32_t ray = 0;   ///< the ray's number within the sample
   std::uint32_t kind = 0;  ///< below max_kinds
+
   static constexpr std::uint32_t max_kinds = 1u << 15;
+  static constexpr std::uint32_t diffuse_direction = max_kinds - 1;
+  /// The points of lights have the kinds from 0 up to before this. More lights share them.
+  static constexpr std::uint32_t kinds_of_lights = max_kinds / 2;
 };
 
 /// Returns numbers in [0, 1). Over the samples of a pixel they are distributed evenly.

@@ -1,6 +1,5 @@
 #include "core/shading/prepared_light.hpp"
 
-#include <array>
 #include <cmath>
 #include <crt/elementary.hpp>
 #include <glm/geometric.hpp>
@@ -17,17 +16,6 @@ namespace {
 /// This bound keeps results finite right at a light, where falloff / D^2 has no bound.
 constexpr double largest_intensity = 0x1p100;
 
-/// Returns directions across others of unit length, and across each other.
-///
-/// Source: Duff et al., Building an orthonormal basis, revisited, 2017.
-std::array<VectorLanes, 2> across(const VectorLanes& n) {
-  const Lanes sign = select(n.z < 0.0, lanes_of(-1), lanes_of(1));
-  const Lanes a = -1.0 / (sign + n.z);
-  const Lanes b = n.x * n.y * a;
-  return {VectorLanes{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x},
-          VectorLanes{b, sign + n.y * n.y * a, -n.y}};
-}
-
 /// Returns directions within a cone about an axis of unit length, spread evenly over it. The cone's
 /// half angle has this versine, 1 - cos. Those of the directions from the axis go into `versines`.
 ///
@@ -38,7 +26,7 @@ VectorLanes directions_in_cone(const VectorLanes& axis, const Lanes& cone_versin
   versines = (x * x + y * y) * cone_versine;
   const Lanes outwards =
       sqrt(cone_versine * (2.0 - versines));  // the sine, by distance on the disc
-  const auto [a, b] = across(axis);
+  const auto [a, b] = directions_across(axis);
   return (1.0 - versines) * axis + outwards * x * a + outwards * y * b;
 }
 
@@ -115,7 +103,7 @@ PreparedLight::PreparedLight(const DiscLight& light)
       is_visible_(light.visible),
       is_two_sided_(light.two_sided),
       area_over_pi_(light.radius * light.radius) {
-  const auto [a, b] = across(lanes_of(axis_));
+  const auto [a, b] = directions_across(lanes_of(axis_));
   edge_a_ = radius_ * a.lane(0);
   edge_b_ = radius_ * b.lane(0);
 }
