@@ -392,6 +392,12 @@ typedef enum crt_ambient_model {
   CRT_AMBIENT_SURFACE    /**< that times its colour and its opacity: what is black stays black */
 } crt_ambient_model;
 
+/** Says how light that is too bright for a display is brought into its range. Since 1.1. */
+typedef enum crt_tone_map {
+  CRT_TONE_MAP_NONE = 0, /**< it is clipped */
+  CRT_TONE_MAP_FILMIC    /**< by a curve as that of film: highlights fade out; see docs/image.md */
+} crt_tone_map;
+
 /** Says how close calls of the geometry are decided. Both values answer the same question. */
 typedef enum crt_precision {
   CRT_PRECISION_STANDARD = 0, /**< right at a silhouette, rounding decides the last bit */
@@ -441,6 +447,20 @@ typedef struct crt_settings {
   int32_t ambient_model; /**< a crt_ambient_model; default CRT_AMBIENT_SURFACE */
   /** A scene without lights is lit from the camera, unless this is not 0. Default 0. */
   int32_t no_head_light;
+  /** Light is followed over so many diffuse bounces, in [0, 64]. Above 0 there is no ambient light.
+   * Default 0. Since 1.1. */
+  int32_t indirect;
+  /** Each ray takes so many samples of what lights a point and has a size, in [1, 1024]. Default 1.
+   * Since 1.1. */
+  int32_t light_samples;
+  int32_t tone_map;   /**< a crt_tone_map; default CRT_TONE_MAP_NONE. Since 1.1. */
+  int32_t reserved_4; /**< must be 0 */
+  /** 8-bit files are brighter by so many stops: light counts 2^exposure times, before the tone map
+   * and gamma. Float files hold light as it is. In [-100, 100]; default 0. Since 1.1. */
+  double exposure;
+  /** Above 0, light that comes by bounces counts as this bright at most, and nothing is claimed of
+   * the picture's accuracy. Default 0. Since 1.1. */
+  double clamp;
 } crt_settings;
 
 /** Fills in a checker. The values that other types need get sensible defaults too. */
@@ -1485,7 +1505,8 @@ CRT_API const float* crt_image_channel(const crt_image* image, const char* name)
  */
 CRT_API const uint32_t* crt_image_channel_uint(const crt_image* image, const char* name);
 /**
- * Writes the 8-bit RGBA that a file gets, with gamma applied and straight alpha, into `pixels`.
+ * Writes the 8-bit RGBA that a file gets, with exposure, tone map and gamma applied and straight
+ * alpha, into `pixels`.
  * @param row_stride  bytes from row to row of yours; 0: without gaps
  */
 CRT_API crt_status crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, size_t row_stride);
