@@ -936,6 +936,19 @@ CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entit
  * key. crt_full_hit and crt_locate() report it. The innermost one holds. Since 1.1.
  */
 CRT_API crt_status crt_entity_with_user(crt_entity* entity, uint64_t user, crt_entity** out);
+/**
+ * Makes the entity as one that casts a shadow, or with 0 one that light passes on its way to what
+ * it lights. Mirrors, glass and the camera still show it. The last call holds. It is said of whole
+ * entities of a scene: those that were told otherwise than is usual cannot be combined
+ * (CRT_ERROR_INVALID_ARGUMENT). Since 1.1.
+ */
+CRT_API crt_status crt_entity_with_shadow(crt_entity* entity, int32_t casts, crt_entity** out);
+/**
+ * Makes the entity as one that the camera sees, or with 0 one that its rays pass as if it were not
+ * there. Mirrors, glass and shadows still show it, and ray queries meet it. Otherwise as
+ * crt_entity_with_shadow(). Since 1.1.
+ */
+CRT_API crt_status crt_entity_with_visible(crt_entity* entity, int32_t visible, crt_entity** out);
 
 /** Returns 1 if the entity has an inside, and 0 if a part of it is a mere surface or it is NULL. */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);

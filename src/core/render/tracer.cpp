@@ -1,5 +1,6 @@
 #include "core/render/tracer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/render/next_rays.hpp"
@@ -64,6 +65,7 @@ void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samp
     absorb(context_, *rays, hits);
     const Surfaces& surfaces = surfaces_of(context_, *rays, hits, !first_hits.empty(), surfaces_);
     report(hits, surfaces, std::exchange(first_hits, {}));
+    if (context_.data.features().unseen) enter_unseen_media(*rays, surfaces);
     if (context_.identifies) identify_hits(context_.data, *rays, hits);
     add_background(context_, *rays, hits);
     add(rays->samples, direct_light(context_, *rays, surfaces, shadow_rays_));
@@ -111,10 +113,30 @@ void Tracer::start_media(PathRays& rays) {
     MediaLists& lists = rays.works[i]->media;
     lists.release(camera_state_.media_mark);
     if (context_.frame.one_viewpoint()) continue;
-    find_surrounding_media(context_.data, rays.batch.ray(i), surrounding, context_.work);
+    find_surrounding_media(context_.data, rays.batch.ray(i), passing_camera, surrounding,
+                           context_.work);
     rays.states[i].media = nested(lists, surrounding);
     rays.states[i].media_mark = lists.mark();
   }
+}
+
+void Tracer::enter_unseen_media(PathRays& rays, const Surfaces& surfaces) {
+  const PreparedData& data = context_.data;
+  if (!rays.are_from_camera() || !data.features().transparency) return;
+  std::vector<Medium>& surrounding = context_.work.surrounding;
+  for_each_ray(surfaces.rays, [&](std::size_t i) {
+    const SurfaceLane from = surfaces.of(i);
+    const WorldRay back{
+        .origin = from.position(), .direction = -rays.batch.direction(i), .start = from.start()};
+    find_surrounding_media(data, back, passing_none, surrounding, context_.work);
+    const bool any_unseen = std::any_of(
+        surrounding.begin(), surrounding.end(),
+        [&](const Medium& medium) { return data.is_passed(medium.object, passing_camera); });
+    if (!any_unseen) return;
+    MediaLists& lists = rays.works[i]->media;
+    rays.states[i].media = nested(lists, surrounding);
+    rays.states[i].media_mark = lists.mark();
+  });
 }
 
 }  // namespace crt::core
