@@ -404,6 +404,12 @@ typedef enum crt_ambient_model {
   CRT_AMBIENT_SURFACE    /**< that times its colour and its opacity: what is black stays black */
 } crt_ambient_model;
 
+/** Says how light that is too bright for a display is brought into its range. Since 1.1. */
+typedef enum crt_tone_map {
+  CRT_TONE_MAP_NONE = 0, /**< it is clipped */
+  CRT_TONE_MAP_FILMIC    /**< by a curve as that of film: highlights fade out; see docs/image.md */
+} crt_tone_map;
+
 /** Says how close calls of the geometry are decided. Both values answer the same question. */
 typedef enum crt_precision {
   CRT_PRECISION_STANDARD = 0, /**< right at a silhouette, rounding decides the last bit */
@@ -453,6 +459,20 @@ typedef struct crt_settings {
   int32_t ambient_model; /**< a crt_ambient_model; default CRT_AMBIENT_SURFACE */
   /** A scene without lights is lit from the camera, unless this is not 0. Default 0. */
   int32_t no_head_light;
+  /** Light is followed over so many diffuse bounces, in [0, 64]. Above 0 there is no ambient light.
+   * Default 0. Since 1.1. */
+  int32_t indirect;
+  /** Each ray takes so many samples of what lights a point and has a size, in [1, 1024]. Default 1.
+   * Since 1.1. */
+  int32_t light_samples;
+  int32_t tone_map;   /**< a crt_tone_map; default CRT_TONE_MAP_NONE. Since 1.1. */
+  int32_t reserved_4; /**< must be 0 */
+  /** 8-bit files are brighter by so many stops: light counts 2^exposure times, before the tone map
+   * and gamma. Float files hold light as it is. In [-100, 100]; default 0. Since 1.1. */
+  double exposure;
+  /** Above 0, light that comes by bounces counts as this bright at most, and nothing is claimed of
+   * the picture's accuracy. Default 0. Since 1.1. */
+  double clamp;
 } crt_settings;
 
 /** Fills in a checker. The values that other types need get sensible defaults too. */
@@ -928,6 +948,19 @@ CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entit
  * key. crt_full_hit and crt_locate() report it. The innermost one holds. Since 1.1.
  */
 CRT_API crt_status crt_entity_with_user(crt_entity* entity, uint64_t user, crt_entity** out);
+/**
+ * Makes the entity as one that casts a shadow, or with 0 one that light passes on its way to what
+ * it lights. Mirrors, glass and the camera still show it. The last call holds. It is said of whole
+ * entities of a scene: those that were told otherwise than is usual cannot be combined
+ * (CRT_ERROR_INVALID_ARGUMENT). Since 1.1.
+ */
+CRT_API crt_status crt_entity_with_shadow(crt_entity* entity, int32_t casts, crt_entity** out);
+/**
+ * Makes the entity as one that the camera sees, or with 0 one that its rays pass as if it were not
+ * there. Mirrors, glass and shadows still show it, and ray queries meet it. Otherwise as
+ * crt_entity_with_shadow(). Since 1.1.
+ */
+CRT_API crt_status crt_entity_with_visible(crt_entity* entity, int32_t visible, crt_entity** out);
 
 /** Returns 1 if the entity has an inside, and 0 if a part of it is a mere surface or it is NULL. */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
@@ -1497,7 +1530,8 @@ CRT_API const float* crt_image_channel(const crt_image* image, const char* name)
  */
 CRT_API const uint32_t* crt_image_channel_uint(const crt_image* image, const char* name);
 /**
- * Writes the 8-bit RGBA that a file gets, with gamma applied and straight alpha, into `pixels`.
+ * Writes the 8-bit RGBA that a file gets, with exposure, tone map and gamma applied and straight
+ * alpha, into `pixels`.
  * @param row_stride  bytes from row to row of yours; 0: without gaps
  */
 CRT_API crt_status crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, size_t row_stride);

@@ -47,6 +47,10 @@ struct NotFiniteValues {
   bool operator==(const NotFiniteValues&) const = default;
 };
 
+/// Returns what a display shows of a channel of linear light, in [0, 1]: light * 2^exposure,
+/// brought into range by the tone map, clamped and raised to 1 / gamma. It is 0 for NaN.
+double displayed(double light, const Settings& settings);
+
 /// An Image is a picture: rows of linear RGBA floats from the top, with premultiplied alpha.
 /// Rendering gives one, and panoramas and image maps take one. It may have other channels beside
 /// them.
@@ -77,12 +81,12 @@ class Image {
                           std::size_t row_stride = 0);
 
   /// Writes a file whose ending decides the format: png, tif, jpg, bmp and ppm get 8-bit integers
-  /// with Settings::gamma applied, exr and hdr linear floats. png, tif and exr get an alpha if some
-  /// pixel is not fully covered. The other formats then show the picture in front of black. Only
-  /// exr holds channels(). The file is written as write_file() does (crt/file.hpp): no half file is
-  /// ever seen, links are followed, devices and pipes are written to as they are. Throws Error: io,
-  /// unsupported (an unknown ending, one that cannot hold channels(), or OpenImageIO cannot be
-  /// loaded), invalid_argument (no pixels), out_of_memory.
+  /// with Settings::exposure, tone_map and gamma applied, exr and hdr linear floats. png, tif and
+  /// exr get an alpha if some pixel is not fully covered. The other formats then show the picture
+  /// in front of black. Only exr holds channels(). The file is written as write_file() does
+  /// (crt/file.hpp): no half file is ever seen, links are followed, devices and pipes are written
+  /// to as they are. Throws Error: io, unsupported (an unknown ending, one that cannot hold
+  /// channels(), or OpenImageIO cannot be loaded), invalid_argument (no pixels), out_of_memory.
   void write(const std::filesystem::path& path, const WriteOptions& options = {}) const;
 
   /// Returns the bytes of such a file. `format` is its ending: "png", "exr", ... Throws Error as
@@ -123,14 +127,14 @@ class Image {
   /// numbers.
   void set_channels(std::vector<ImageChannel> channels);
 
-  /// Returns the 8-bit RGBA bytes that a file gets: clamp(c)^(1/gamma), rounded to nearest, with
-  /// straight alpha. With show_clip, pixels are red where a channel passes 1. A display-encoded
-  /// image gets no gamma again.
+  /// Returns the 8-bit RGBA bytes that a file gets: what is displayed() of each channel, rounded to
+  /// nearest, with straight alpha. With show_clip, pixels are red where a channel passes what a
+  /// display can show. A display-encoded image gets no exposure, tone map and gamma again.
   std::vector<std::uint8_t> to_rgba8() const;
 
   /// Says whether the values are as a display wants them (read from an 8- or 16-bit file), not
   /// linear. Where such an image serves in a scene it is raised to Settings::gamma, so that at any
-  /// gamma it shows as it is.
+  /// gamma it shows as it is, without an exposure and a tone map.
   bool display_encoded() const { return display_encoded_; }
   /// Says whether values that were filled in by hand are as a display wants them.
   void set_display_encoded(bool encoded) { display_encoded_ = encoded; }
@@ -143,8 +147,8 @@ class Image {
   /// Replaces what not_finite() returns. Pass {} where the user has already been warned.
   void set_not_finite(NotFiniteValues values) { not_finite_ = std::move(values); }
 
-  /// Returns the settings it was rendered with. Gamma and show_clip act when it is written, and the
-  /// texts and the rest go into the file.
+  /// Returns the settings it was rendered with. Exposure, tone map, gamma and show_clip act when it
+  /// is written, and the texts and the rest go into the file.
   const Settings& settings() const { return settings_; }
   /// Replaces the settings, to write the same picture with another gamma or title.
   void set_settings(Settings settings) { settings_ = std::move(settings); }

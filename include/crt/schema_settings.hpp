@@ -17,6 +17,9 @@ template <>
 inline constexpr auto choices<AmbientModel> = choice("AmbientModel", "crt_ambient_model",
                                                      "CRT_AMBIENT", "light", "surface");
 template <>
+inline constexpr auto choices<ToneMap> = choice("ToneMap", "crt_tone_map", "CRT_TONE_MAP", "none",
+                                                "filmic");
+template <>
 inline constexpr auto choices<Precision> = choice("Precision", "crt_precision", "CRT_PRECISION",
                                                   "standard", "exact");
 
@@ -35,11 +38,20 @@ inline constexpr auto table<Settings> = Table{
     field("gamma", &Settings::gamma, between(0.1, 10),
           {.option = "8-bit files store value^(1/gamma)"},
           "of 8- and 16-bit files, 0.1 to 10; see below"),
+    field("exposure", &Settings::exposure, between(-100, 100),
+          {.option = "stops that pictures are brighter by, but not float files"},
+          "stops by which such files and the screen are brighter, -100 to 100; see below"),
+    field("tone_map", &Settings::tone_map, any,
+          {.option = "none, or filmic: highlights fade out instead of clipping"},
+          "`\"none\"` or `\"filmic\"`, see below"),
     field("supersampling", &Settings::supersampling, between(1, 64),
           {.option = "n x n rays for each pixel"}, "n x n rays for each pixel, 1 to 64"),
     field("dof_samples", &Settings::dof_samples, between(1, 65536),
           {.option = "points of the lens for each of them"},
           "points of the lens for each, 1 to 65536; 1: no lens"),
+    field("light_samples", &Settings::light_samples, between(1, 1024),
+          {.option = "samples of lights that have a size, for each ray"},
+          "samples for each ray of what lights a point and has a size, 1 to 1024"),
     field("target_error", &Settings::target_error, share,
           {.option = "samples until pixels are this near the truth; 0.004 is an 8-bit step"},
           "above 0: how near the truth each pixel must be, 0 to 1; see below"),
@@ -60,10 +72,16 @@ inline constexpr auto table<Settings> = Table{
     field("recursion_depth", &Settings::recursion_depth, between(0, 256),
           {.option = "bounces followed after the camera's ray"},
           "bounces that are followed, 0 to 256"),
+    field("indirect", &Settings::indirect, between(0, 64),
+          {.option = "diffuse bounces that light is followed over"},
+          "diffuse bounces that light is followed over, 0 to 64"),
     field("min_weight", &Settings::min_weight, share,
           {.default_text = "1.0 / 1024",
            .option = "rays that add less than this share are not followed"},
           "rays of a smaller share of the pixel end, 0 to 1"),
+    field("clamp", &Settings::clamp, factor,
+          {.option = "above 0: the most that bounced light may show"},
+          "above 0: the most that light by bounces may show; ends all claims of accuracy"),
     field("falloff_model", &Settings::falloff_model, any,
           {.option = "distance that dims a light: path or light"},
           "`\"path\"` or `\"light\"`, see below"),

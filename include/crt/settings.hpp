@@ -17,6 +17,12 @@ enum class AmbientModel {
   surface,  ///< that times its colour and its opacity: what is black stays black
 };
 
+/// Says how light that is too bright for a display is brought into its range.
+enum class ToneMap {
+  none,    ///< it is clipped
+  filmic,  ///< by a curve as that of film: highlights fade out, middle grey stays (docs/image.md)
+};
+
 /// Says how close calls of the geometry are decided: see docs/numerics.md. Both values answer the
 /// same question.
 enum class Precision {
@@ -45,14 +51,22 @@ struct Settings {
   /// The size is in pixels: each in [1, 65536], together at most 2^27.
   int width = 640;
   int height = 480;
-  /// Files of 8 bits store clamp(c)^(1/gamma). It is in [0.1, 10].
+  /// Files of 8 bits store c^(1/gamma) of clamped light c. It is in [0.1, 10].
   double gamma = 2.2;
+  /// Files of 8 bits, and what is shown, are brighter by so many stops: light counts 2^exposure
+  /// times. Float files hold light as it is. It is in [-100, 100].
+  double exposure = 0;
+  /// It is applied where the exposure is, after it and before gamma.
+  ToneMap tone_map = ToneMap::none;
   /// There are n x n rays a pixel, with n in [1, 64]. It has no effect with a target error or a
   /// time budget.
   int supersampling = 1;
   /// This is the number of points of the lens for each of these rays, in [1, 65536]; 1 means no
   /// lens. If it is more than 1, a target error or a time budget takes as many as samples.
   int dof_samples = 1;
+  /// This is the number of samples that each of these rays takes of what lights a point, where that
+  /// has a size. It is in [1, 1024].
+  int light_samples = 1;
   /// Above 0, each pixel gets samples until it is this near the truth. That is half of the width of
   /// the interval that holds it in 95 of 100 cases, in what a display shows, where 1/255 is a step
   /// of 8 bits. It is in [0, 1].
@@ -69,8 +83,14 @@ struct Settings {
   double filter_width = 3;
   /// This is the number of bounces followed after the camera's ray, in [0, 256].
   int recursion_depth = 3;
+  /// This is the number of diffuse bounces that light is followed over, in [0, 64]. Above 0 there
+  /// is no ambient light.
+  int indirect = 0;
   /// A ray whose share of the pixel is below this in every channel is not traced. It is in [0, 1].
   double min_weight = 1.0 / 1024;
+  /// Above 0, light that comes by bounces counts as this bright at most. So there are no fireflies,
+  /// and nothing is claimed of a picture's accuracy.
+  double clamp = 0;
   FalloffModel falloff_model = FalloffModel::light;
   AmbientModel ambient_model = AmbientModel::surface;
   /// A scene without lights is lit from the camera, so that it shows something. With false it is

@@ -83,6 +83,7 @@ from .values import (
     Projection,
     RenderStats,
     Settings,
+    ToneMap,
 )
 
 live = Live
@@ -148,6 +149,7 @@ __all__ = [
     "Sphere",
     "Status",
     "Superellipsoid",
+    "ToneMap",
     "Torus",
     "Triangle",
     "__version__",

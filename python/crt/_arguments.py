@@ -10,6 +10,7 @@ import os
 from collections.abc import Iterable, Sequence
 from typing import Any, SupportsFloat, TypeVar
 
+import numpy as np
 from numpy.typing import NDArray
 
 T = TypeVar("T")
@@ -66,6 +67,12 @@ def whole(value: Any, name: str, kind: Any = ctypes.c_int32) -> int:
     if kind(given).value != given:  # ctypes would cut it off
         raise OverflowError(f"{name} must be a whole number of {_range(kind)}, not {given}")
     return given
+
+
+def boolean(value: Any, name: str) -> bool:
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise refusal(name, "True or False", value)
 
 
 def _range(kind: Any) -> str:

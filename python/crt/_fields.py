@@ -188,6 +188,29 @@ FIELDS = {
             "int32_t no_head_light",
             "A scene without lights is lit from the camera, unless this is not 0. Default 0.",
         ),
+        (
+            "int32_t indirect",
+            "Light is followed over so many diffuse bounces, in [0, 64]. Above 0 there is no "
+            "ambient light. Default 0. Since 1.1.",
+        ),
+        (
+            "int32_t light_samples",
+            "Each ray takes so many samples of what lights a point and has a size, in [1, "
+            "1024]. Default 1. Since 1.1.",
+        ),
+        ("int32_t tone_map", "a ToneMap; default ToneMap.NONE. Since 1.1."),
+        ("int32_t reserved_4", "must be 0"),
+        (
+            "double exposure",
+            "8-bit files are brighter by so many stops: light counts 2^exposure times, before "
+            "the tone map and gamma. Float files hold light as it is. In [-100, 100]; default "
+            "0. Since 1.1.",
+        ),
+        (
+            "double clamp",
+            "Above 0, light that comes by bounces counts as this bright at most, and nothing is"
+            " claimed of the picture's accuracy. Default 0. Since 1.1.",
+        ),
     ),
     "crt_mesh": (
         ("int32_t reserved", "must be 0"),

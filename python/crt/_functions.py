@@ -306,6 +306,18 @@ FUNCTIONS = {
         "uint64_t user",
         "crt_entity** out",
     ),
+    "crt_entity_with_shadow": (
+        "crt_status",
+        "crt_entity* entity",
+        "int32_t casts",
+        "crt_entity** out",
+    ),
+    "crt_entity_with_visible": (
+        "crt_status",
+        "crt_entity* entity",
+        "int32_t visible",
+        "crt_entity** out",
+    ),
     "crt_entity_is_solid": ("int32_t", "const crt_entity* entity"),
     "crt_entity_solid_fault": (
         "crt_status",

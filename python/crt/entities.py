@@ -59,6 +59,20 @@ class Entity(Handle):
         entity = Entity._adopt(create("crt_entity_with_user", self._handle, number))
         return entity._made_by(self, "with_user", number)
 
+    def with_shadow(self, casts: bool) -> "Entity":
+        """Returns the entity as one that casts a shadow or none. The last call holds, and it is of
+        whole entities of a scene: one that casts none cannot be combined."""
+        yes = _arguments.boolean(casts, "with_shadow: casts")
+        entity = Entity._adopt(create("crt_entity_with_shadow", self._handle, yes))
+        return entity._made_by(self, "with_shadow", yes)
+
+    def with_visible(self, visible: bool) -> "Entity":
+        """Returns the entity as one that the camera sees or not. Mirrors, glass and shadows show it
+        all the same, and rays of queries meet it. Otherwise as with_shadow."""
+        yes = _arguments.boolean(visible, "with_visible: visible")
+        entity = Entity._adopt(create("crt_entity_with_visible", self._handle, yes))
+        return entity._made_by(self, "with_visible", yes)
+
     def transformed(self, matrix: ArrayLike) -> "Entity":
         """Returns the entity moved by an affine map: a 3 x 4 matrix, or a 4 x 4 one whose last row
         is 0, 0, 0, 1."""

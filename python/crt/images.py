@@ -34,8 +34,8 @@ class Image(Handle):
 
     @classmethod
     def from_rgba8(cls, pixels: NDArray[np.uint8]) -> "Image":
-        """Makes a copy of height x width x 4 uint8 as displays want them: gamma applied, alpha
-        straight."""
+        """Makes a copy of height x width x 4 uint8 as displays want them: exposure, tone map and
+        gamma applied, alpha straight."""
         return cls._of_array("crt_image_from_rgba8", pixels, np.dtype(np.uint8))
 
     @classmethod
@@ -125,7 +125,8 @@ class Image(Handle):
         return {name.decode(): np.asarray(_LentArray.of_channel(reference, name)) for name in names}
 
     def to_rgba8(self) -> NDArray[np.uint8]:
-        """Returns height x width x 4 uint8, as a file gets them: gamma applied, alpha straight."""
+        """Returns height x width x 4 uint8, as a file gets them: exposure, tone map and gamma
+        applied, alpha straight."""
         reference = self._handle
         shape = library.crt_image_height(reference), library.crt_image_width(reference), 4
         pixels = np.empty(shape, np.uint8)

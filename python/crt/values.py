@@ -263,6 +263,13 @@ class AmbientModel(enum.IntEnum):
     SURFACE = 1
 
 
+class ToneMap(enum.IntEnum):
+    """Says how light that is too bright for a display is brought into its range."""
+
+    NONE = 0
+    FILMIC = 1
+
+
 class Precision(enum.IntEnum):
     """Says how close calls of the geometry are decided."""
 
@@ -276,6 +283,7 @@ class Precision(enum.IntEnum):
     ambient_model=AmbientModel,
     precision=Precision,
     filter=PixelFilter,
+    tone_map=ToneMap,
 )
 class Settings(Struct):
     """Settings say how a scene is rendered."""

@@ -776,6 +776,13 @@ class AmbientModel(enum.IntEnum):
     LIGHT = 0
     SURFACE = 1
 
+ToneMapName = Literal["none", "filmic"]
+
+class ToneMap(enum.IntEnum):
+    """Says how light that is too bright for a display is brought into its range."""
+    NONE = 0
+    FILMIC = 1
+
 PrecisionName = Literal["standard", "exact"]
 
 class Precision(enum.IntEnum):
@@ -820,6 +827,16 @@ class Settings(_Struct):
     - ambient_model (AmbientModel, or its name): a AmbientModel; default AmbientModel.SURFACE
     - no_head_light (int): A scene without lights is lit from the camera, unless this is not 0.
       Default 0.
+    - indirect (int): Light is followed over so many diffuse bounces, in [0, 64]. Above 0 there is
+      no ambient light. Default 0. Since 1.1.
+    - light_samples (int): Each ray takes so many samples of what lights a point and has a size, in
+      [1, 1024]. Default 1. Since 1.1.
+    - tone_map (ToneMap, or its name): a ToneMap; default ToneMap.NONE. Since 1.1.
+    - exposure (float): 8-bit files are brighter by so many stops: light counts 2^exposure times,
+      before the tone map and gamma. Float files hold light as it is. In [-100, 100]; default 0.
+      Since 1.1.
+    - clamp (float): Above 0, light that comes by bounces counts as this bright at most, and nothing
+      is claimed of the picture's accuracy. Default 0. Since 1.1.
     """
     width: int
     height: int
@@ -845,6 +862,11 @@ class Settings(_Struct):
     compat: int
     ambient_model: AmbientModel | int | AmbientModelName
     no_head_light: int
+    indirect: int
+    light_samples: int
+    tone_map: ToneMap | int | ToneMapName
+    exposure: float
+    clamp: float
     def __init__(
         self,
         *,
@@ -872,6 +894,11 @@ class Settings(_Struct):
         compat: SupportsIndex = ...,
         ambient_model: AmbientModel | int | AmbientModelName = ...,
         no_head_light: SupportsIndex = ...,
+        indirect: SupportsIndex = ...,
+        light_samples: SupportsIndex = ...,
+        tone_map: ToneMap | int | ToneMapName = ...,
+        exposure: SupportsFloat = ...,
+        clamp: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
@@ -900,6 +927,11 @@ class Settings(_Struct):
         compat: SupportsIndex = ...,
         ambient_model: AmbientModel | int | AmbientModelName = ...,
         no_head_light: SupportsIndex = ...,
+        indirect: SupportsIndex = ...,
+        light_samples: SupportsIndex = ...,
+        tone_map: ToneMap | int | ToneMapName = ...,
+        exposure: SupportsFloat = ...,
+        clamp: SupportsFloat = ...,
     ) -> None: ...
 
 class RenderStats(_Struct):

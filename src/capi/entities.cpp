@@ -228,6 +228,20 @@ crt_status crt_entity_with_user(crt_entity* entity, uint64_t user, crt_entity** 
   });
 }
 
+crt_status crt_entity_with_shadow(crt_entity* entity, int32_t casts, crt_entity** out) {
+  return create(out, [&] {
+    require(entity, "entity");
+    return entity->value.with_shadow(casts != 0);
+  });
+}
+
+crt_status crt_entity_with_visible(crt_entity* entity, int32_t visible, crt_entity** out) {
+  return create(out, [&] {
+    require(entity, "entity");
+    return entity->value.with_visible(visible != 0);
+  });
+}
+
 int32_t crt_entity_is_solid(const crt_entity* entity) {
   return entity != nullptr && entity->value.is_solid() ? 1 : 0;
 }

@@ -11,9 +11,9 @@ namespace crt::cli {
 namespace {
 
 constexpr std::string_view render_footer =
-    R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, gamma
-applied), .exr and .hdr (linear light). Nothing is left behind under its name unless it is whole. A
-link is followed, and what is a device or a pipe is written to as it is.
+    R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, with
+exposure, tone map and gamma), .exr and .hdr (linear light). Nothing is left behind under its name
+unless it is whole. A link is followed, and what is a device or a pipe is written to as it is.
 With --frames, .gif, .webp and .mp4 are films of all frames, which the program ffmpeg makes.
 An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo,
 and of each pixel how many samples it has (samples) and how far it may be from the truth (error).

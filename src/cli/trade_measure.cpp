@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <crt/elementary.hpp>
 #include <numeric>
 
 namespace crt::cli {
 
 namespace {
-
-double shown(float value, double exponent) {
-  const double level = value > 0 ? std::min(double{value}, 1.0) : 0.0;
-  return exponent == 1 ? level : elementary::pow(level, exponent);
-}
 
 /// Returns the value that `share` of them do not exceed.
 double quantile(std::vector<double>& values, double share) {
@@ -36,12 +30,12 @@ PictureError displayed_difference(std::span<const Image> pictures,
   for (std::size_t piece = 0; piece < pictures.size(); ++piece) {
     const std::span<const float> a = pictures[piece].pixels();
     const std::span<const float> b = references[piece].pixels();
-    const double exponent = 1 / references[piece].settings().gamma;
+    const Settings& settings = references[piece].settings();
     for (std::size_t pixel = 0; pixel < a.size(); pixel += 4) {
       double worst = 0;
       for (std::size_t i = pixel; i < pixel + 3; ++i) {
-        const double steps =
-            steps_of_8_bits * std::abs(shown(a[i], exponent) - shown(b[i], exponent));
+        const double steps = steps_of_8_bits * std::abs(displayed(double{a[i]}, settings) -
+                                                        displayed(double{b[i]}, settings));
         squares += steps * steps;
         worst = std::max(worst, steps);
       }

@@ -19,8 +19,8 @@ struct PictureError {
   double p999 = 0;  ///< 99.9 % of the pixels have no channel that is farther off
 };
 
-/// Returns how far two pictures of one size differ, as displays show them: clamped to 0..1, after
-/// gamma, in front of black.
+/// Returns how far two pictures of one size differ, as displays show them: after the exposure, tone
+/// map and gamma of the reference, clamped to 0..1, in front of black.
 PictureError displayed_difference(const Image& picture, const Image& reference);
 
 /// Returns how far two pictures in several pieces differ.

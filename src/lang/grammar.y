@@ -56,7 +56,8 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %token SETTINGS "Settings" SCENE "Scene" MACRO "Macro"
 %token SCALE "scale" TRANSLATE "translate" ROTATE "rotate"
 /* These are tokens of their own in few places, and names in all others. */
-%token MATERIAL "material" ID "id" MATRIX "matrix" ELIF "elif" RETURN "return"
+%token MATERIAL "material" ID "id" MATRIX "matrix" SHADOW "shadow" VISIBLE "visible"
+%token ELIF "elif" RETURN "return"
 %token TRUE "true" FALSE "false" WHILE "while" IF "if" ELSE "else" FOR "for" IN "in" IMPORT "import"
 
 %token LEFT_BRACE "{" RIGHT_BRACE "}" RIGHT_PARENTHESIS ")" RIGHT_BRACKET "]"
@@ -248,6 +249,8 @@ modifier:
   | "material" arithmetic                    { $$ = {ModifierKind::material, $2}; }
   | "id" arithmetic                          { $$ = {ModifierKind::id, $2}; }
   | "matrix" arithmetic                      { $$ = {ModifierKind::matrix, $2}; }
+  | "shadow" arithmetic                      { $$ = {ModifierKind::shadow, $2}; }
+  | "visible" arithmetic                     { $$ = {ModifierKind::visible, $2}; }
   | IDENTIFIER arithmetic                    { tree.unknown_modifier(@1);
                                                $$ = {ModifierKind::scale, $2}; }
 

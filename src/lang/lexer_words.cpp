@@ -23,9 +23,9 @@ struct Word {
 
 /// These words have a meaning at the beginning of a modifier alone.
 constexpr std::array modifier_words = {
-    Word{"material", Terminal::MATERIAL},
-    Word{"id", Terminal::ID},
-    Word{"matrix", Terminal::MATRIX},
+    Word{"material", Terminal::MATERIAL}, Word{"id", Terminal::ID},
+    Word{"matrix", Terminal::MATRIX},     Word{"shadow", Terminal::SHADOW},
+    Word{"visible", Terminal::VISIBLE},
 };
 
 }  // namespace

@@ -28,6 +28,10 @@ const char* name_of(ModifierKind kind) {
       return "id";
     case ModifierKind::matrix:
       return "matrix";
+    case ModifierKind::shadow:
+      return "shadow";
+    case ModifierKind::visible:
+      return "visible";
   }
   return "";
 }
@@ -45,6 +49,9 @@ const char* what_it_takes(ModifierKind kind) {
       return "an Integer";
     case ModifierKind::matrix:
       return "a List of 12 numbers, or of three rows of 4";
+    case ModifierKind::shadow:
+    case ModifierKind::visible:
+      return "a Boolean";
   }
   return "";
 }
@@ -126,6 +133,8 @@ std::optional<Transform> transform_of(const Modifier& modifier, const Value& ope
       return std::nullopt;
     case ModifierKind::material:
     case ModifierKind::id:
+    case ModifierKind::shadow:
+    case ModifierKind::visible:
       break;
   }
   return std::nullopt;
@@ -145,6 +154,10 @@ Entity modified(const Entity& entity, const Modifier& modifier, const Value& ope
   } else if (modifier.kind == ModifierKind::id) {
     if (const auto* number = std::get_if<std::int64_t>(&operand))
       return entity.with_id(id_of(modifier, *number));
+  } else if (modifier.kind == ModifierKind::shadow || modifier.kind == ModifierKind::visible) {
+    const auto* yes = std::get_if<bool>(&operand);
+    if (yes && modifier.kind == ModifierKind::shadow) return entity.with_shadow(*yes);
+    if (yes) return entity.with_visible(*yes);
   } else if (const std::optional<Transform> transform = transform_of(modifier, operand)) {
     return entity.transformed(*transform);
   }

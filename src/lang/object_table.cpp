@@ -63,6 +63,32 @@ ObjectType height_field() {
       finish_height_field);
 }
 
+/// Lets an object say what meets its entity.
+void take_visibility(ObjectType& type) {
+  for (const std::string_view name : {"shadow", "visible"}) {
+    type.attributes.push_back({.name = name,
+                               .type = type_text(static_cast<const bool*>(nullptr)),
+                               .default_text = "true",
+                               .choices = {},
+                               .rule = {},
+                               .about = {},
+                               .assign = [](void*, const Given& given, Context& context) {
+                                 bool is_boolean = false;
+                                 convert(given, context, is_boolean);
+                               }});
+  }
+  type.build = [build = std::move(type.build)](const ObjectSite& site) -> Value {
+    Value value = build(site);
+    const auto given = [&](std::string_view name) {
+      const Given* const attribute = find_given(site.attributes, name);
+      return attribute == nullptr ? nullptr : std::get_if<bool>(&attribute->value);
+    };
+    if (const bool* casts = given("shadow")) value = std::get<Entity>(value).with_shadow(*casts);
+    if (const bool* is = given("visible")) value = std::get<Entity>(value).with_visible(*is);
+    return value;
+  };
+}
+
 /// Lists the entities in the order in which messages do.
 std::vector<ObjectType> entity_types() {
   std::vector<ObjectType> types = {entity<Sphere>(),    entity<Box>(),       entity<Plane>(),
@@ -81,6 +107,7 @@ std::vector<ObjectType> entity_types() {
   };
   schema::for_each_kind<Primitive>(add);
   schema::for_each_kind<schema::PlacedSolids>(add);
+  for (ObjectType& type : types) take_visibility(type);
   return types;
 }
 

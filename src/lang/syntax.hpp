@@ -88,7 +88,7 @@ struct Call {
   std::vector<const Expression*> arguments;
 };
 
-enum class ModifierKind { scale, translate, rotate, material, id, matrix };
+enum class ModifierKind { scale, translate, rotate, material, id, matrix, shadow, visible };
 
 /// A Modifier is scale, translate, rotate (rules 30 to 32) or another of these with its operand.
 struct Modifier {

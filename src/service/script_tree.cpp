@@ -37,6 +37,10 @@ const char* word_of(lang::ModifierKind kind) {
       return "id";
     case lang::ModifierKind::matrix:
       return "matrix";
+    case lang::ModifierKind::shadow:
+      return "shadow";
+    case lang::ModifierKind::visible:
+      return "visible";
   }
   return "";
 }

@@ -63,6 +63,8 @@ EntityDescription description_of(const EntityNode& node) {
   if (wrapper.material) add_material(result.values, *wrapper.material);
   if (wrapper.id) result.values.emplace_back("id", std::to_string(*wrapper.id));
   if (wrapper.user) result.values.emplace_back("user", std::to_string(*wrapper.user));
+  if (!wrapper.casts_shadow) result.values.emplace_back("shadow", "false");
+  if (!wrapper.visible) result.values.emplace_back("visible", "false");
   return result;
 }
 

@@ -148,6 +148,8 @@ std::string EntityWriter::wrapper(const EntityWrapper& wrapper) {
   if (wrapper.to_parent) text = placed(std::move(text), *wrapper.to_parent);
   if (wrapper.material) text = with_material(text, *wrapper.material);
   if (wrapper.user) text = with_user(text, *wrapper.user);
+  if (!wrapper.casts_shadow) text = without(text, "shadow");
+  if (!wrapper.visible) text = without(text, "visible");
   if (!wrapper.id) return text;
   const std::string id = std::to_string(*wrapper.id);
   if (program_.syntax().is_c())
@@ -164,6 +166,14 @@ std::string EntityWriter::with_user(const std::string& text, std::uint64_t user)
     return program_.create("entity", "crt_entity_with_user", {text, number + "U"});
   return called(text,
                 text::format("with_user({}{})", number, program_.syntax().is_cpp() ? "U" : ""));
+}
+
+std::string EntityWriter::without(const std::string& text, std::string_view what) {
+  const Syntax& syntax = program_.syntax();
+  if (syntax.is_script()) return modified(text, what, "false");
+  if (syntax.is_c())
+    return program_.create("entity", text::format("crt_entity_with_{}", what), {text, "0"});
+  return called(text, text::format("with_{}({})", what, syntax.is_cpp() ? "false" : "False"));
 }
 
 std::string EntityWriter::placed(std::string entity, const core::TransformChain& chain) {
@@ -224,7 +234,7 @@ std::string EntityWriter::with_material(const std::string& entity, const SharedM
 /// Puts a modifier behind an entity.
 std::string EntityWriter::modified(const std::string& entity, std::string_view modifier,
                                    const std::string& operand) const {
-  if (modifier == "material" || modifier == "id" || modifier == "matrix")
+  if (modifier != "scale" && modifier != "translate")
     program_.refuse_in_2015(text::format("'<{} ...>'", modifier));
   return text::format("{} <{} {}>", entity, modifier, operand);
 }

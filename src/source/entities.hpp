@@ -30,6 +30,9 @@ class EntityWriter {
   std::string wrapper(const EntityWrapper& wrapper);
   std::string placed(std::string entity, const core::TransformChain& chain);
   std::string with_user(const std::string& text, std::uint64_t user);
+  /// Says that an entity casts no shadow ("shadow"), or that the camera does not see it
+  /// ("visible").
+  std::string without(const std::string& text, std::string_view what);
   std::string placed_by(const std::string& entity, const Transform& map);
   std::string with_material(const std::string& entity, const SharedMaterial& material);
   std::string modified(const std::string& entity, std::string_view modifier,

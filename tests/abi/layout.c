@@ -133,7 +133,7 @@ AT(crt_background, sky_alpha, 96);
 AT(crt_background, image, 104);
 AT(crt_background, angle, 112);
 
-SIZE(crt_settings, 152);
+SIZE(crt_settings, 184);
 AT(crt_settings, struct_size, 0);
 AT(crt_settings, width, 4);
 AT(crt_settings, height, 8);
@@ -162,6 +162,12 @@ AT(crt_settings, compat, 136);
 AT(crt_settings, reserved_3, 140);
 AT(crt_settings, ambient_model, 144);
 AT(crt_settings, no_head_light, 148);
+AT(crt_settings, indirect, 152);
+AT(crt_settings, light_samples, 156);
+AT(crt_settings, tone_map, 160);
+AT(crt_settings, reserved_4, 164);
+AT(crt_settings, exposure, 168);
+AT(crt_settings, clamp, 176);
 
 SIZE(crt_script_options, 208);
 AT(crt_script_options, struct_size, 0);

@@ -16,11 +16,8 @@ constexpr double max_of_flat = 2 * step;
 constexpr int rays_across = 32;
 constexpr std::uint64_t first_seed_of_truth = 1001;
 
-Shown shown(const Color& color, double gamma) {
-  const auto channel = [&](double value) {
-    return std::pow(std::clamp(value, 0.0, 1.0), 1 / gamma);
-  };
-  return {channel(color.r), channel(color.g), channel(color.b)};
+Shown shown(const Color& color, const Settings& settings) {
+  return {displayed(color.r, settings), displayed(color.g, settings), displayed(color.b, settings)};
 }
 
 double farthest(const Shown& a, const Shown& b) {
@@ -39,7 +36,7 @@ struct Rays {
 /// A RayPicture is a part of the scene's picture in which each ray is a pixel.
 class RayPicture {
  public:
-  RayPicture(Scene scene, const Region& region) : gamma_(scene.settings.gamma) {
+  RayPicture(Scene scene, const Region& region) : settings_(scene.settings) {
     Settings& settings = scene.settings;
     settings.width *= rays_across;
     settings.height *= rays_across;
@@ -53,13 +50,13 @@ class RayPicture {
   Rays of_pixel(int x, int y) const {
     const auto ids = image_.integer_channel("id");
     Rays rays;
-    rays.low = rays.high = shown(image_.at(x * rays_across, y * rays_across), gamma_);
+    rays.low = rays.high = shown(image_.at(x * rays_across, y * rays_across), settings_);
     for (int j = y * rays_across; j < (y + 1) * rays_across; ++j) {
       for (int i = x * rays_across; i < (x + 1) * rays_across; ++i) {
         rays.entities.insert(
             ids[static_cast<std::size_t>(j) * static_cast<std::size_t>(image_.width()) +
                 static_cast<std::size_t>(i)]);
-        const Shown seen = shown(image_.at(i, j), gamma_);
+        const Shown seen = shown(image_.at(i, j), settings_);
         for (std::size_t c = 0; c < seen.size(); ++c) {
           rays.low[c] = std::min(rays.low[c], seen[c]);
           rays.high[c] = std::max(rays.high[c], seen[c]);
@@ -71,7 +68,7 @@ class RayPicture {
 
  private:
   static constexpr int few_lens_samples = 2;
-  double gamma_;
+  Settings settings_;
   Image image_;
 };
 
@@ -165,10 +162,10 @@ TruePixels true_pixels(const Scene& scene, const Region& region, std::vector<boo
   for (int i = 0; i < region.width * region.height; ++i) {
     const Color a = one.at(i % region.width, i / region.width);
     const Color b = other.at(i % region.width, i / region.width);
-    const double gamma = scene.settings.gamma;
-    result.truth.push_back(shown({(a.r + b.r) / 2, (a.g + b.g) / 2, (a.b + b.b) / 2, 1}, gamma));
+    const Settings& settings = scene.settings;
+    result.truth.push_back(shown({(a.r + b.r) / 2, (a.g + b.g) / 2, (a.b + b.b) / 2, 1}, settings));
     if (!result.chosen[static_cast<std::size_t>(i)]) continue;
-    const double half = farthest(shown(a, gamma), shown(b, gamma)) / 2;
+    const double half = farthest(shown(a, settings), shown(b, settings)) / 2;
     squares += half * half;
     ++count;
   }
@@ -191,8 +188,7 @@ std::vector<Trial> trials_of(const TruePixels& pixels, double target_error, int 
       if (!pixels.chosen[i]) continue;
       const int x = static_cast<int>(i) % pixels.region.width;
       const int y = static_cast<int>(i) / pixels.region.width;
-      const double error =
-          farthest(shown(image.at(x, y), adaptive.settings.gamma), pixels.truth[i]);
+      const double error = farthest(shown(image.at(x, y), adaptive.settings), pixels.truth[i]);
       trials.push_back({.pixel = index++, .claimed = double{claims[i]}, .error = error});
     }
   }

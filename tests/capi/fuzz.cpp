@@ -204,7 +204,7 @@ void Session::combine() {
 
 void Session::dress() {
   crt_entity* const entity = entities_.any(input_);
-  switch (input_.below(3)) {
+  switch (input_.below(4)) {
     case 0: {
       double affine[12];
       for (double& number : affine) number = input_.number();
@@ -215,6 +215,13 @@ void Session::dress() {
     case 1:
       entities_.make([&](crt_entity** out) {
         return crt_entity_with_id(entity, input_.raw<std::uint32_t>(), out);
+      });
+      break;
+    case 2:
+      entities_.make([&](crt_entity** out) {
+        const auto yes = static_cast<std::int32_t>(input_.below(2));
+        return input_.below(2) == 0 ? crt_entity_with_shadow(entity, yes, out)
+                                    : crt_entity_with_visible(entity, yes, out);
       });
       break;
     default: {

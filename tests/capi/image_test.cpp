@@ -172,6 +172,17 @@ TEST_CASE("an image takes other settings without changing its pixels") {
   CHECK(before[0] == 136);  // 255 * 0.25^(1 / 2.2)
   CHECK(after[0] == 64);
   CHECK(crt_image_pixels(darker.get(), nullptr)[0] == 0.25f);
+  settings.exposure = 1;
+  const ImageHandle exposed = made<ImageHandle>(
+      [&](crt_image** out) { return crt_image_with_settings(image.get(), &settings, out); });
+  REQUIRE(crt_image_to_rgba8(exposed.get(), after, 0) == CRT_OK);
+  CHECK(after[0] == 128);
+  settings.exposure = 0;
+  settings.tone_map = CRT_TONE_MAP_FILMIC;
+  const ImageHandle toned = made<ImageHandle>(
+      [&](crt_image** out) { return crt_image_with_settings(image.get(), &settings, out); });
+  REQUIRE(crt_image_to_rgba8(toned.get(), after, 0) == CRT_OK);
+  CHECK(after[0] == 68);  // 255 f(0.72317 * 0.25)
 }
 
 TEST_CASE("an image lends the channels that were asked for, by name") {

@@ -318,6 +318,11 @@ TEST_CASE("the defaults are those of the C++ interface") {
   CHECK(settings.filter == CRT_FILTER_BOX);
   CHECK(settings.filter_width == 3);
   CHECK(settings.title == nullptr);
+  CHECK(settings.indirect == 0);
+  CHECK(settings.light_samples == 1);
+  CHECK(settings.tone_map == CRT_TONE_MAP_NONE);
+  CHECK(settings.exposure == 0);
+  CHECK(settings.clamp == 0);
   crt_material material;
   crt_material_init(&material, sizeof material);
   CHECK(material.color[1] == 0.5);

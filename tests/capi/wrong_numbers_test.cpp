@@ -69,6 +69,9 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
     crt_settings settings;
     crt_settings_init(&settings, sizeof settings);
     settings.gamma = bad;
+    crt_settings exposed;
+    crt_settings_init(&exposed, sizeof exposed);
+    exposed.exposure = bad;
     crt_background background;
     crt_background_init(&background, sizeof background);
     background.color[1] = bad;
@@ -87,6 +90,7 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
         {"affine", [&] { return crt_entity_with_transform(ball.get(), affine.data(), &out); }},
         {"falloff", [&] { return crt_scene_add_light(scene.get(), &light); }},
         {"roll", [&] { return crt_scene_set_camera(scene.get(), &camera); }},
+        {"exposure", [&] { return crt_scene_set_settings(scene.get(), &exposed); }},
         {"gamma", [&] { return crt_scene_set_settings(scene.get(), &settings); }},
         {"color", [&] { return crt_scene_set_background(scene.get(), &background); }},
         {"absorption", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},
@@ -118,6 +122,9 @@ TEST_CASE("a number that no enumeration has is refused, with the field's name") 
     crt_settings precise;
     crt_settings_init(&precise, sizeof precise);
     precise.precision = bad;
+    crt_settings toned;
+    crt_settings_init(&toned, sizeof toned);
+    toned.tone_map = bad;
     crt_pattern pattern;
     crt_pattern_init(&pattern, sizeof pattern);
     pattern.type = bad;
@@ -133,6 +140,7 @@ TEST_CASE("a number that no enumeration has is refused, with the field's name") 
         {"projection", [&] { return crt_scene_set_camera(scene.get(), &projection); }},
         {"aperture_shape", [&] { return crt_scene_set_camera(scene.get(), &aperture); }},
         {"type", [&] { return crt_scene_set_background(scene.get(), &background); }},
+        {"tone_map", [&] { return crt_scene_set_settings(scene.get(), &toned); }},
         {"falloff_model", [&] { return crt_scene_set_settings(scene.get(), &settings); }},
         {"precision", [&] { return crt_scene_set_settings(scene.get(), &precise); }},
         {"type", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},

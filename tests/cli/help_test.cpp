@@ -34,7 +34,8 @@ TEST_CASE("the help of render lists every setting by its script name") {
         "--showclip",       "--seed",       "--targeterror",  "--timebudget",    "--minsamples",
         "--maxsamples",     "--filter",     "--filterwidth",  "--passes",        "--checkpoint",
         "--precision",      "--projection", "--title",        "--author",        "--date",
-        "--notes"}) {
+        "--notes",          "--exposure",   "--tonemap",      "--lightsamples",  "--indirect",
+        "--clamp"}) {
     CHECK_MESSAGE(help.find(name) != std::string::npos, name);
   }
 }

@@ -42,6 +42,11 @@ TEST_CASE("the numbers of other entities do not shift") {
   CHECK(scene.leaves[2].entity_id == 3);
 }
 
+TEST_CASE("what other rays pass is no duplicate") {
+  CHECK(leaves_of({ball, ball.with_visible(false), ball.with_shadow(false), ball.with_shadow(false),
+                   ball.with_shadow(true)}) == 3);
+}
+
 TEST_CASE("what was made anew with equal numbers is equal") {
   CHECK(leaves_of({Sphere{.radius = 2}, Sphere{.radius = 2}, Sphere{.radius = 3}}) == 2);
   CHECK(leaves_of({moved(ball, 0.25), moved(Sphere{}, 0.25), moved(ball, 0.5)}) == 2);

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "crt/error.hpp"
 #include "crt/image.hpp"
@@ -61,6 +63,30 @@ TEST_CASE("EXR keeps linear floats to the bit, beyond 0 and 1 too") {
     CHECK_FALSE(read.display_encoded());
     CHECK(difference(read, image) == 0);
   }
+}
+
+TEST_CASE("exposure and tone map change 8-bit files, and no float file") {
+  Image image = smooth_picture(20, 10);
+  image.set(3, 5, {3.5, 0.25, 1e-3, 1});
+  Image brighter = image;
+  Settings settings;
+  settings.exposure = 1.5;
+  settings.tone_map = ToneMap::filmic;
+  brighter.set_settings(settings);
+  for (const char* name : {"a.exr", "a.hdr"}) {
+    CAPTURE(name);
+    CHECK(difference(round_trip(brighter, name), round_trip(image, name)) == 0);
+  }
+  for (const char* name : {"a.png", "a.tif", "a.bmp", "a.ppm"}) {
+    CAPTURE(name);
+    CHECK(round_trip(brighter, name).to_rgba8() == brighter.to_rgba8());
+    CHECK(round_trip(brighter, name).to_rgba8() != image.to_rgba8());
+  }
+  const std::vector<std::uint8_t> jpeg = round_trip(brighter, "a.jpg").to_rgba8();
+  const std::vector<std::uint8_t> shown = brighter.to_rgba8();
+  double error = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i) error += std::abs(int{jpeg[i]} - int{shown[i]});
+  CHECK(error / static_cast<double>(shown.size()) < 6);
 }
 
 TEST_CASE("EXR files hold 0 for what is not a number and the largest float for infinity") {

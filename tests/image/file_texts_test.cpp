@@ -45,6 +45,8 @@ Image described_picture() {
   settings.date = "May 2003";
   settings.notes = "First line\nsecond line";
   settings.gamma = 2.2;
+  settings.exposure = -0.5;
+  settings.tone_map = ToneMap::filmic;
   settings.supersampling = 3;
   settings.dof_samples = 5;
   settings.recursion_depth = 7;
@@ -104,6 +106,8 @@ TEST_CASE("a PNG tells title, author, date, notes, software, settings and what t
                                                        {"Description", "First line\nsecond line"},
                                                        {"Software", crt_version},
                                                        {"crt:gamma", "2.2"},
+                                                       {"crt:exposure", "-0.5"},
+                                                       {"crt:tonemap", "filmic"},
                                                        {"crt:supersampling", "3"},
                                                        {"crt:dofsamples", "5"},
                                                        {"crt:recursiondepth", "7"},
@@ -125,7 +129,8 @@ TEST_CASE("texts that are empty stay out of the file") {
   smooth_picture(8, 8).write(directory / "a.png");
   const auto texts = png_texts(file_text(directory / "a.png"));
   for (const char* name :
-       {"Title", "Author", "Creation Time", "Description", "crt:renderseconds", "crt:camerarays"}) {
+       {"Title", "Author", "Creation Time", "Description", "crt:renderseconds", "crt:camerarays",
+        "crt:exposure", "crt:tonemap", "crt:indirect", "crt:lightsamples", "crt:clamp"}) {
     CHECK(texts.count(name) == 0);
   }
   CHECK(texts.count("Software") == 1);

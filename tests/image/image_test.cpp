@@ -163,11 +163,86 @@ TEST_CASE("show_clip paints pixels red in which a channel passes 1") {
   CHECK(bytes_of({0.3, 0.3, 0.3, 0.29999998}, 1, true) == Pixel{255, 255, 255, 76});
 }
 
-TEST_CASE("a picture that is as displays want it gets no second gamma") {
+namespace {
+
+/// Returns the bytes of one pixel under settings.
+Pixel bytes_under(const Color& color, const crt::Settings& settings) {
+  Image image(1, 1);
+  image.set(0, 0, color);
+  image.set_settings(settings);
+  const std::vector<std::uint8_t> bytes = image.to_rgba8();
+  return {bytes[0], bytes[1], bytes[2], bytes[3]};
+}
+
+}  // namespace
+
+TEST_CASE("an exposure of 1 shows what twice the light shows, at every level and alpha") {
+  for (const crt::ToneMap map : {crt::ToneMap::none, crt::ToneMap::filmic}) {
+    crt::Settings usual;
+    usual.tone_map = map;
+    crt::Settings brighter = usual;
+    brighter.exposure = 1;
+    for (int i = 0; i <= 1024; ++i) {
+      const double c = i / 512.0;
+      for (const double alpha : {1.0, 0.5})
+        REQUIRE(bytes_under({c, c / 2, 2 * c, alpha}, brighter) ==
+                bytes_under({2 * c, c, 4 * c, alpha}, usual));
+    }
+  }
+}
+
+TEST_CASE("bytes are what a display shows of each channel, rounded to the nearest level") {
+  for (const crt::ToneMap map : {crt::ToneMap::none, crt::ToneMap::filmic}) {
+    for (const double exposure : {-2.0, 0.0, 0.3, 4.0}) {
+      for (const double gamma : {1.0, 2.2}) {
+        crt::Settings settings;
+        settings.tone_map = map;
+        settings.exposure = exposure;
+        settings.gamma = gamma;
+        int before = 0;
+        for (int i = 0; i <= 300; ++i) {
+          const double c = double{static_cast<float>(i / 100.0)};
+          const int level = bytes_under({c, 0, c, 1}, settings)[0];
+          CHECK(level == static_cast<int>(std::floor(255 * crt::displayed(c, settings) + 0.5)));
+          CHECK(level >= before);
+          before = level;
+        }
+      }
+    }
+  }
+  crt::Settings settings;
+  settings.gamma = 2;
+  settings.exposure = -1;
+  CHECK(crt::displayed(0.5, settings) == doctest::Approx(0.5).epsilon(1e-15));
+  CHECK(crt::displayed(4, settings) == 1);
+  CHECK(crt::displayed(-1, settings) == 0);
+  CHECK(crt::displayed(std::numeric_limits<double>::quiet_NaN(), settings) == 0);
+}
+
+TEST_CASE("clipping is marked where the display clips, after exposure and tone map") {
+  const Pixel red = {255, 0, 0, 255};
+  crt::Settings settings;
+  settings.show_clip = true;
+  settings.exposure = 1;
+  CHECK(bytes_under({0.4, 0.51, 0.3}, settings) == red);
+  CHECK(bytes_under({0.4, 0.5, 0.3}, settings) != red);
+  settings.exposure = -1;
+  CHECK(bytes_under({0.4, 1.9, 0.3}, settings) != red);
+  CHECK(bytes_under({0.4, 2.1, 0.3}, settings) == red);
+  settings.exposure = 0;
+  settings.tone_map = crt::ToneMap::filmic;
+  CHECK(bytes_under({0.4, 9.9, 0.3}, settings) != red);
+  CHECK(bytes_under({0.4, 10.1, 0.3}, settings) == red);
+  CHECK(bytes_under({0.2, 5.1, 0.1, 0.5}, settings) == red);
+}
+
+TEST_CASE("a picture that is as displays want it gets no second gamma, exposure and tone map") {
   Image image(1, 1);
   image.set(0, 0, {0.25, 0.5, 0.75});
   crt::Settings settings;
   settings.gamma = 2.2;
+  settings.exposure = 1;
+  settings.tone_map = crt::ToneMap::filmic;
   image.set_settings(settings);
   image.set_display_encoded(true);
   CHECK(image.to_rgba8() == std::vector<std::uint8_t>{64, 128, 191, 255});

@@ -205,7 +205,7 @@ TEST_CASE("so does what starts on surfaces, in whichever lanes") {
       for_each_ray(~some & RayPacket::all(packet_size),
                    [&](std::size_t k) { REQUIRE(same(hits[k], untouched)); });
       const PacketStarts starts = data.noted_starts(batch, some);
-      const RayMask hidden = data.occluded_each(batch, starts, some, work);
+      const RayMask hidden = data.shadowed_each(batch, starts, some, work);
       REQUIRE(hidden == data.occluded_each(batch, some, work));
       CHECK((hidden & ~some) == 0);
       for_each_ray(some, [&](std::size_t k) {

@@ -111,9 +111,9 @@ TEST_CASE("a '<' before scale, translate or rotate begins modifiers") {
   CHECK(kinds("<")[0] == Kind::S_LESS);
 }
 
-TEST_CASE("a '<' before material, id or matrix begins modifiers if a value follows there") {
+TEST_CASE("a '<' before material, id and others begins modifiers if a value follows there") {
   const auto first = [](const std::string& text) { return kinds(text)[0]; };
-  for (const std::string word : {"material", "id", "matrix"}) {
+  for (const std::string word : {"material", "id", "matrix", "shadow", "visible"}) {
     CAPTURE(word);
     for (const char* value : {" m", " 3", " .5", " [1]", " (m)", " \"s\"", " Material", " true"})
       CHECK(first("<" + word + value) == Kind::S_MODIFIER_START);

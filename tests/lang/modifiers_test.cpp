@@ -56,6 +56,44 @@ TEST_CASE("a material as a modifier is for the parts that have none") {
   CHECK(pixels_of(half + "material -> red } <material blue> - " + box) == given);
 }
 
+TEST_CASE("light and the camera pass an entity, by modifiers and by attributes") {
+  const std::string floor = "Box { cornerA -> vec3(-5,-2,-5) cornerB -> vec3(5,-1,5) } ";
+  const std::string ball = "Sphere { center -> vec3(0,0,0) radius -> 1 ";
+  const auto usual = pixels_of(floor + ball + "}");
+  const auto unseen = pixels_of(floor + ball + "} <visible false>");
+  const auto shadowless = pixels_of(floor + ball + "shadow -> false }");
+  CHECK(unseen != usual);
+  CHECK(shadowless != usual);
+  CHECK(pixels_of(floor + ball + "visible -> false }") == unseen);
+  CHECK(pixels_of(floor + ball + "} <shadow false>") == shadowless);
+  CHECK(pixels_of(floor + ball + "} <visible false, shadow false>") == pixels_of(floor));
+  CHECK(pixels_of(floor + ball + "visible -> false shadow -> false }") == pixels_of(floor));
+  CHECK(pixels_of(floor + ball + "visible -> false shadow -> true } <visible (1 < 2)>") == usual);
+  // A whole combination may be passed, and groups may.
+  const std::string cut =
+      "(" + ball + "} - Box { cornerA -> vec3(0,0,-2) cornerB -> vec3(2,2,2) })";
+  CHECK(pixels_of(floor + cut + " <visible false, shadow false>") == pixels_of(floor));
+  CHECK(pixels_of("two = Macro () { " + ball + "} " + cut + " } " + floor +
+                  "two() <visible false, shadow false>") == pixels_of(floor));
+  // As the other words they are names where they begin no modifier.
+  CHECK(pixels_of("visible = 1 shadow = visible < 2 " + floor + ball + "} <shadow shadow>") ==
+        usual);
+}
+
+TEST_CASE("what light or the camera pass is a whole entity") {
+  const auto message = [](const std::string& entities) {
+    const crt::test::Run run = crt::test::run("Scene { " + entities + " }");
+    return run.result.diagnostics.empty() ? "" : run.result.diagnostics.front().message;
+  };
+  const std::string ball = "Sphere { center -> vec3(0,0,0) radius -> 1 ";
+  CHECK(message(ball + "} - " + ball + "visible -> false }").find("'visible'") !=
+        std::string::npos);
+  CHECK(message(ball + "shadow -> false } + " + ball + "}").find("give it to the combination") !=
+        std::string::npos);
+  CHECK(message(ball + "} <shadow 1>") == "'shadow' takes a Boolean, not an Integer");
+  CHECK(message(ball + "visible -> 1 }").find("must be a Boolean") != std::string::npos);
+}
+
 TEST_CASE("an id is what hits report, and the outermost holds") {
   const std::string ball = "Scene { Sphere { center -> vec3(0,0,0) radius -> 1 } ";
   CHECK(id_seen_from_the_camera(scene_of(ball + "}")) == 0);

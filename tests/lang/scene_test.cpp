@@ -36,7 +36,8 @@ TEST_CASE("all settings arrive") {
   const crt::Scene scene = scene_of(R"(Settings {
     title -> "T" author -> "A" date -> "D" notes -> "N" width -> 12 height -> 34 gamma -> 2.5
     supersampling -> 3 dofsamples -> 4 recursiondepth -> 5 minweight -> 0.25 falloffmodel -> "light"
-    ambientmodel -> "surface" headlight -> false
+    ambientmodel -> "surface" headlight -> false exposure -> -1.5 tonemap -> "filmic"
+    lightsamples -> 9 indirect -> 6 clamp -> 12
     targeterror -> 0.25 timebudget -> 1.5 minsamples -> 32 maxsamples -> 64
     filter -> "blackmanharris" filterwidth -> 2.5 showclip -> true seed -> 77
     precision -> "exact" projection -> "cylindrical"
@@ -56,6 +57,11 @@ TEST_CASE("all settings arrive") {
   CHECK(settings.falloff_model == crt::FalloffModel::light);
   CHECK(settings.ambient_model == crt::AmbientModel::surface);
   CHECK(!settings.head_light);
+  CHECK(settings.exposure == -1.5);
+  CHECK(settings.tone_map == crt::ToneMap::filmic);
+  CHECK(settings.light_samples == 9);
+  CHECK(settings.indirect == 6);
+  CHECK(settings.clamp == 12);
   CHECK(settings.target_error == 0.25);
   CHECK(settings.time_budget == 1.5);
   CHECK(settings.min_samples == 32);

@@ -284,6 +284,19 @@ class Materials(unittest.TestCase):
         self.assertGreater(right[2], 0.1)
         self.assertEqual((left[2], right[0]), (0, 0))
 
+    def test_light_and_the_camera_may_pass_an_entity(self):
+        ball = crt.Sphere((0, 0, 0), 1)
+        scene = crt.Scene([ball.with_visible(False).with_shadow(False)])
+        scene.settings.set(width=3, height=3, head_light=False)
+        scene.background = crt.Background.solid((0.25, 0.5, 0.75))
+        np.testing.assert_array_equal(scene.render().pixels[1, 1], [0.25, 0.5, 0.75, 1])
+        self.assertEqual(len(scene.prepare().crossings([(0, 0, -5, 0, 0, 1)]).hits), 2)
+        with self.assertRaisesRegex(crt.Error, "'visible' false, which is of whole entities"):
+            ball - ball.with_visible(False)
+        with self.assertRaisesRegex(TypeError, "with_shadow: casts must be True or False, not 1"):
+            ball.with_shadow(1)
+        self.assertIn("with_shadow(False)", repr(ball.with_shadow(np.bool_(False))))
+
     def test_ids_are_reported(self):
         prepared = crt.Scene(
             [crt.Sphere((9, 0, 0), 1), crt.Sphere((0, 0, 0), 1, id=77), shell()]

@@ -354,3 +354,18 @@ class Images(unittest.TestCase):
         brighter = image.with_settings(crt.Settings(gamma=3))
         np.testing.assert_array_equal(brighter.pixels, image.pixels)
         self.assertGreater(brighter.to_rgba8().mean(), image.to_rgba8().mean())
+
+    def test_exposure_and_tone_map_change_what_is_shown_and_no_light(self):
+        pixels = np.zeros((1, 256, 4), np.float32)
+        pixels[..., :3] = np.linspace(0, 12, 256, dtype=np.float32)[None, :, None]
+        pixels[..., 3] = 1
+        image = crt.Image.from_pixels(pixels)
+        shown = image.with_settings(crt.Settings(exposure=-2, tone_map="filmic"))
+        np.testing.assert_array_equal(shown.pixels, image.pixels)
+        x = 0.7231708051011695 * pixels[0, :, 0].astype(np.float64) / 4
+        curve = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)
+        expected = np.floor(255 * np.clip(curve, 0, 1) ** (1 / 2.2) + 0.5)
+        np.testing.assert_array_equal(shown.to_rgba8()[0, :, 1], expected)
+        self.assertEqual(crt.Settings().tone_map, crt.ToneMap.NONE)
+        with self.assertRaisesRegex(crt.Error, "exposure"):
+            image.with_settings(crt.Settings(exposure=101))

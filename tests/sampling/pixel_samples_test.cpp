@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "core/sampling/schedule.hpp"
 #include "core/sampling/sequence.hpp"
+#include "crt/image.hpp"
 
 using namespace crt::core;
 
@@ -210,6 +212,41 @@ TEST_CASE(
     const double blue = std::max(shown(0.5) - shown(0.2), shown(0.2) - shown(0));
     const double red = std::max(shown(0.02) - shown(0.01), shown(0.01) - shown(0));
     CHECK(alone(dark) == doctest::Approx(std::max(red, blue)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("with any exposure and tone map a width is the farthest that the interval shows") {
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<double> exponents(-9, 4);
+  std::uniform_real_distribution<double> shares(0, 1.5);
+  for (const crt::ToneMap map : {crt::ToneMap::none, crt::ToneMap::filmic}) {
+    for (const double exposure : {-3.0, 0.0, 2.5}) {
+      for (const double gamma : {0.5, 1.0, 2.2}) {
+        crt::Settings settings;
+        settings.tone_map = map;
+        settings.exposure = exposure;
+        settings.gamma = gamma;
+        const DisplayScale scale(gamma, ToneCurve(settings));
+        for (int i = 0; i < 200; ++i) {
+          const double mean = std::exp2(exponents(engine));
+          const double half = mean * shares(engine);
+          const MeanInterval interval{.mean = lanes_of(0, mean, 0, 1),
+                                      .half_width = lanes_of(0, half, 0, 0)};
+          double farthest = 0;
+          for (int k = -64; k <= 64; ++k) {
+            const double there = crt::displayed(mean + half * k / 64, settings);
+            farthest = std::max(farthest, std::abs(there - crt::displayed(mean, settings)));
+          }
+          CHECK(double{scale.half_widths({interval})[0]} ==
+                doctest::Approx(farthest).epsilon(1e-7));
+        }
+        // Alpha is no light.
+        MeanInterval alpha;
+        alpha.mean = lanes_of(0, 0, 0, 0.5);
+        alpha.half_width = lanes_of(0, 0, 0, 0.25);
+        CHECK(double{scale.half_widths({alpha})[0]} == 0.25);
+      }
+    }
   }
 }
 

@@ -18,8 +18,9 @@ TEST_CASE("each built-in, constant and keyword has its text in the reference") {
     CHECK_FALSE(reference.word(builtin.name).empty());
   }
   for (const char* word :
-       {"pi", "t", "Settings", "Scene", "Macro", "import", "while", "for", "in", "if", "else",
-        "elif", "return", "scale", "translate", "rotate", "material", "id", "matrix"}) {
+       {"pi",        "t",      "Settings", "Scene", "Macro",  "import", "while",
+        "for",       "in",     "if",       "else",  "elif",   "return", "scale",
+        "translate", "rotate", "material", "id",    "matrix", "shadow", "visible"}) {
     CAPTURE(word);
     CHECK_FALSE(reference.word(word).empty());
   }
@@ -38,6 +39,8 @@ TEST_CASE("each attribute of settings and camera has its text, and so have the l
   for (const char* name : {"color", "ambient", "falloff"})
     CHECK_FALSE(reference.attribute("PointLight", name).empty());
   CHECK_FALSE(reference.attribute("Checker", "scale").empty());
+  for (const char* name : {"shadow", "visible"})
+    CHECK_FALSE(reference.attribute("Sphere", name).empty());
 }
 
 TEST_CASE("modifiers may stand in a table of their own, within a list") {

@@ -319,6 +319,24 @@ TEST_CASE("entities with ids, materials and without a point keep their places") 
   CHECK(wrapper.material.has_value());
 }
 
+TEST_CASE("what light passes, and what the camera does not see, stays so") {
+  Scene scene;
+  const Entity cut = Sphere{} - Box{.corner_a = {0, 0, 0}};
+  scene.entities = {cut, cut.with_shadow(false), Entity(Box{}).with_visible(false),
+                    cut.with_visible(false).with_shadow(false).with_id(4)};
+  const Scene read = again(scene);
+  REQUIRE(read.entities.size() == scene.entities.size());
+  const auto is = [&](std::size_t i, bool casts_shadow, bool visible) {
+    const auto* wrapper = std::get_if<EntityWrapper>(&read.entities[i].node().content);
+    return (wrapper == nullptr || wrapper->casts_shadow) == casts_shadow &&
+           (wrapper == nullptr || wrapper->visible) == visible;
+  };
+  CHECK(is(0, true, true));
+  CHECK(is(1, false, true));
+  CHECK(is(2, true, false));
+  CHECK(is(3, false, false));
+}
+
 TEST_CASE("text that is not UTF-8, and seeds that no Integer has, are refused") {
   Scene scene;
   scene.settings.title = "caf\xe9";

@@ -93,6 +93,18 @@ TEST_CASE("the empty entity and entities under numbers are written") {
   }
 }
 
+TEST_CASE("entities that light passes or the camera does not see are written as such") {
+  const Entity hidden = Entity(Sphere{}).with_shadow(false).with_visible(false);
+  const auto holds = [&](SourceLanguage language, const char* part) {
+    return code(hidden, language).find(part) != std::string::npos;
+  };
+  CHECK(holds(SourceLanguage::cpp, ".with_shadow(false).with_visible(false)"));
+  CHECK(holds(SourceLanguage::python, ".with_shadow(False).with_visible(False)"));
+  CHECK(holds(SourceLanguage::c, "crt_entity_with_shadow("));
+  CHECK(holds(SourceLanguage::c, "crt_entity_with_visible("));
+  CHECK(holds(SourceLanguage::script, "<shadow false> <visible false>"));
+}
+
 TEST_CASE("trees of any depth are written without recursion") {
   constexpr int depth = 20000;
   Entity deep = Sphere{};

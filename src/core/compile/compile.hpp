@@ -19,6 +19,12 @@
 
 namespace crt::core {
 
+/// PassingRays are kinds of rays that may pass objects as if these were not there.
+using PassingRays = std::uint8_t;
+inline constexpr PassingRays passing_none = 0;
+inline constexpr PassingRays passing_camera = 1;  ///< see Entity::with_visible()
+inline constexpr PassingRays passing_shadow = 2;  ///< see Entity::with_shadow()
+
 /// A SceneObject is what the acceleration structure holds: a lone primitive, a CSG object with
 /// several leaves, or an instance.
 struct SceneObject {
@@ -28,6 +34,7 @@ struct SceneObject {
   std::uint32_t instance = 0xffffffffu;  ///< index of the instance, if it is one
   Bounds bounds;                         ///< in the world
   bool solid = true;
+  PassingRays passed_by = passing_none;  ///< these rays do not meet it
 
   bool is_csg() const { return program != 0xffffffffu; }
   bool is_instance() const { return instance != 0xffffffffu; }

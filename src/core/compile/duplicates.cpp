@@ -179,8 +179,9 @@ void Duplicates::choose() {
   std::erase_if(scene_.objects, [&](const SceneObject& object) {
     workers_.poll_at(object.first_leaf);
     if (!is_involved(object)) return false;
-    std::vector<std::uint32_t> key = {object.is_csg() ? reduce(scene_.programs[object.program])
-                                                      : equal_[object.first_leaf]};
+    std::vector<std::uint32_t> key = {
+        object.is_csg() ? reduce(scene_.programs[object.program]) : equal_[object.first_leaf],
+        object.passed_by};
     const std::uint32_t end = object.first_leaf + leaf_count(object);
     for (std::uint32_t leaf = object.first_leaf; leaf < end; ++leaf) {
       if (keeps_leaf_[leaf]) key.push_back(look_of(leaves_[leaf]));
@@ -326,6 +327,7 @@ void remove_equal_instances(FlatScene& scene, const Workers& workers) {
     const Instance& one = instance_of(a);
     const Instance& other = instance_of(b);
     if (a.hash != b.hash || one.prototype != other.prototype) return false;
+    if (scene.objects[a.object].passed_by != scene.objects[b.object].passed_by) return false;
     if (one.to_world == other.to_world) return true;
     return one.to_world != nullptr && other.to_world != nullptr && one.to_world->is_plain() &&
            other.to_world->is_plain() &&

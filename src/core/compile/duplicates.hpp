@@ -10,7 +10,7 @@ namespace crt::core {
 /// Removes duplicates from a flat scene: objects that are there already, and children of a CSG node
 /// that are equal to an earlier child (a + a = a, a ^ a = a). No ray ever sees them. Primitives are
 /// equal if they have the same numbers and the same map to the world, and trees are equal if their
-/// parts are.
+/// parts are. Objects that other rays pass are no duplicates.
 ///
 /// In a tree the first child is seen whatever the others are made of. Objects count as equal only
 /// if they are made of the same materials, or of materials that let no light through.

@@ -16,6 +16,13 @@ namespace crt::core {
 
 namespace {
 
+PassingRays kinds_that_pass(const EntityNode& entity) {
+  const auto* wrapper = std::get_if<EntityWrapper>(&entity.content);
+  if (wrapper == nullptr) return passing_none;
+  return static_cast<PassingRays>((wrapper->visible ? passing_none : passing_camera) |
+                                  (wrapper->casts_shadow ? passing_none : passing_shadow));
+}
+
 class Flattening {
  public:
   Flattening(Precision precision, const Workers& workers)
@@ -57,6 +64,7 @@ class Flattening {
   Instancing instancing_;
   Instancing::Count count_;
   bool is_prototype_ = false;
+  PassingRays passed_by_ = passing_none;  ///< these pass the entity
   FlatScene result_;
   std::uint32_t program_ = no_program;  ///< that leaves are added to
   Transform last_map_;                  ///< of the last placement
@@ -90,6 +98,7 @@ FlatScene Flattening::flatten(std::span<const Entity> entities, const PrimitiveL
     if (entities[i].is_empty()) continue;
     const auto place = static_cast<std::uint32_t>(i);
     const Part part{.node = &entities[i].node(), .id = place, .part_id = place};
+    passed_by_ = kinds_that_pass(*part.node);
     add_entity(part.unwrapped(result_.transforms), limit);
   }
   return std::move(result_);
@@ -177,6 +186,7 @@ void Flattening::add_instance(const Part& part) {
   SceneObject object;
   object.instance = static_cast<std::uint32_t>(result_.instances.size());
   object.solid = part.node->solid;
+  object.passed_by = passed_by_;
   result_.objects.push_back(object);
   result_.instances.push_back({.to_world = part.to_world,
                                .prototype = prototype_number(part),
@@ -198,6 +208,7 @@ void Flattening::add_group(std::span<const Part> parts) {
   SceneObject object;
   object.first_leaf = static_cast<std::uint32_t>(result_.leaves.size());
   object.solid = parts[0].node->solid;
+  object.passed_by = passed_by_;
   program_ = no_program;
   if (parts.size() == 1 && parts[0].operation() == nullptr) {
     add_leaf(parts[0], false);

@@ -40,6 +40,17 @@ void require_solid(const Entity& entity, const char* operation) {
                   " has no inside, and only solids can be cut: " + entity.solid_fault());
 }
 
+/// Refuses a part that light or the camera are to pass, as they could not tell it from the others.
+void require_usual_rays(const EntityNode& part) {
+  const auto* wrapper = std::get_if<EntityWrapper>(&part.content);
+  if (wrapper == nullptr || (wrapper->casts_shadow && wrapper->visible)) return;
+  const std::string name = wrapper->visible ? "shadow" : "visible";
+  throw Error(ErrorCode::invalid_argument,
+              "a part of a combination has '" + name +
+                  "' false, which is of whole entities: give it to the combination instead",
+              name);
+}
+
 /// Combines the parts that are not empty. Empty ones must make no difference, so the first part of
 /// a difference must not be empty.
 Entity combine(CsgOperator op, std::span<const Entity> parts) {
@@ -49,6 +60,7 @@ Entity combine(CsgOperator op, std::span<const Entity> parts) {
     if (!part.is_empty()) operation.parts.push_back(part.shared_node());
   }
   if (operation.parts.size() == 1) return Entity(std::move(operation.parts.front()));
+  for (const EntityPointer& part : operation.parts) require_usual_rays(*part);
   return make_entity(std::move(operation));
 }
 
@@ -196,6 +208,20 @@ Entity Entity::with_user(std::uint64_t user) const {
   if (is_empty()) return *this;
   EntityWrapper wrapper = wrapper_of(*this);
   if (!wrapper.user) wrapper.user = user;
+  return make_entity(std::move(wrapper));
+}
+
+Entity Entity::with_shadow(bool casts) const {
+  if (is_empty()) return *this;
+  EntityWrapper wrapper = wrapper_of(*this);
+  wrapper.casts_shadow = casts;
+  return make_entity(std::move(wrapper));
+}
+
+Entity Entity::with_visible(bool visible) const {
+  if (is_empty()) return *this;
+  EntityWrapper wrapper = wrapper_of(*this);
+  wrapper.visible = visible;
   return make_entity(std::move(wrapper));
 }
 

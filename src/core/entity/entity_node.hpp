@@ -23,7 +23,8 @@ struct CsgOperation {
   std::vector<EntityPointer> parts;
 };
 
-/// An EntityWrapper has what is put around an entity: where it is, its material and its number.
+/// An EntityWrapper has what is put around an entity: where it is, its material, its numbers, and
+/// what meets it.
 /// Wrappers never nest. Wrapping one again makes a new one around the same child, so chains of a
 /// million transforms cost nothing later.
 struct EntityWrapper {
@@ -33,6 +34,9 @@ struct EntityWrapper {
   std::optional<SharedMaterial> material;  ///< for parts without one of their own
   std::optional<std::uint32_t> id;
   std::optional<std::uint64_t> user;  ///< for parts without one of their own
+  // These are false at most around what is no part of anything.
+  bool casts_shadow = true;
+  bool visible = true;
   EntityPointer child;
 };
 

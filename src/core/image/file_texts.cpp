@@ -39,6 +39,7 @@ bool is_always_written(std::string_view name) {
 /// Says whether a setting has an effect in this picture, and is not the size.
 bool is_in_use(std::string_view name, const Settings& settings) {
   if (name == "width" || name == "height") return false;
+  if (name == "light_samples") return settings.light_samples > 1;
   if (name == "filter_width") return settings.filter != PixelFilter::box;
   if (name != "min_samples" && name != "max_samples") return true;
   return settings.target_error > 0 || settings.time_budget > 0;

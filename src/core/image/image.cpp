@@ -96,6 +96,10 @@ void Image::set(int x, int y, const Color& color) {
   pixel[3] = static_cast<float>(color.a);
 }
 
+double displayed(double light, const Settings& settings) {
+  return core::displayed(light, settings);
+}
+
 std::vector<std::uint8_t> Image::to_rgba8() const {
   try {
     return core::display_bytes(*this, core::AlphaMode::straight);

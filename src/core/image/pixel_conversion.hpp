@@ -14,6 +14,9 @@ enum class AlphaMode {
   over_black,  ///< the colour in front of black, for files without an alpha
 };
 
+/// Returns what a display shows of a channel of linear light (crt::displayed).
+double displayed(double light, const Settings& settings);
+
 /// Returns 8-bit RGBA as displays want it (Image::to_rgba8).
 std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode);
 

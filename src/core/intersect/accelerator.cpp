@@ -72,6 +72,7 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
   bounded.reserve(compiled_.objects.size());
   for (std::uint32_t i = 0; i < compiled_.objects.size(); ++i) {
     const Bounds& bounds = compiled_.objects[i].bounds;
+    kinds_that_pass_ |= compiled_.objects[i].passed_by;
     if (bounds.finite()) {
       bounded.push_back(i);
       total.include(bounds);

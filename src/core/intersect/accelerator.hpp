@@ -31,16 +31,18 @@ class Accelerator {
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
 
-  RayHit nearest(const WorldRay& ray, RayWorkspace& work) const;
-  bool any(const WorldRay& ray, RayWorkspace& work) const;
+  // Rays of a kind that some objects let pass do not meet these.
+
+  RayHit nearest(const WorldRay& ray, RayWorkspace& work, PassingRays kind = passing_none) const;
+  bool any(const WorldRay& ray, RayWorkspace& work, PassingRays kind = passing_none) const;
 
   /// Finds the nearest hits of some of a batch's rays, as nearest() does of each; but what it
   /// leaves in RayWorkspace::here and near is of no use. Hits of other rays stay as they are.
   void nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
-                    Packets packets, RayWorkspace& work) const;
+                    Packets packets, RayWorkspace& work, PassingRays kind = passing_none) const;
   /// Returns for which of some rays there is any crossing; `starts` says what these start on.
   RayMask any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some, Packets packets,
-                   RayWorkspace& work) const;
+                   RayWorkspace& work, PassingRays kind = passing_none) const;
   /// Finds on what some rays start, and what they have left for good.
   PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
@@ -69,6 +71,8 @@ class Accelerator {
   MemoryUse memory() const;
 
   const CompiledScene& compiled() const { return compiled_; }
+  /// Returns the kinds of rays that pass some objects.
+  PassingRays kinds_that_pass() const { return kinds_that_pass_; }
   const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }
   const Leaf& leaf_of(const RayHit& hit) const { return compiled_.leaf_of(hit); }
   const SceneObject& object(std::uint32_t index) const { return compiled_.objects[index]; }
@@ -138,7 +142,11 @@ class Accelerator {
   /// Finds the nearest hits of rays whose hits are empty.
   template <class Real>
   void find_nearest(const Rays<Real>& rays, RayMask some, std::span<RayHit> hits,
-                    RayWorkspace& work) const;
+                    RayWorkspace& work, PassingRays kind) const;
+  /// Follows rays of a kind. It looks for objects that they pass only where there are any.
+  template <class Real, class Asked>
+  RayMask follow_kind(const Rays<Real>& rays, const Starts<Real>& starts, RayMask some,
+                      const Asked& asked, PassingRays kind, RayWorkspace& work) const;
   PacketStartsOf<1> noted_starts(const WorldRay& ray, RayMask = 1) const;
 
   /// Returns whether there are so few boxes that all of them are looked at.
@@ -167,7 +175,8 @@ class Accelerator {
                          std::span<RayHit> hits, RayWorkspace& work) const;
   /// Gathers the crossings around the place of a hit with coincident ones into `work`. Returns the
   /// first of those at it.
-  RayHit gather_coincident(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
+  RayHit gather_coincident(const WorldRay& ray, const RayHit& nearest, PassingRays kind,
+                           RayWorkspace& work) const;
 
   CompiledScene compiled_;
   BoundingProxies unbounded_;
@@ -185,6 +194,7 @@ class Accelerator {
   FlatBoxList flat_box_list_;               ///< takes its place if there are few boxes
   bool objects_share_surfaces_ =
       false;  ///< whether some surface has faces of several objects on it
+  PassingRays kinds_that_pass_ = passing_none;
 };
 
 }  // namespace crt::core

@@ -97,6 +97,7 @@ Proxy proxy_of(const CompiledScene& scene, std::uint32_t index) {
     bound_leaf(scene, object.first_leaf, result);
   }
   result.proxy.object = index;
+  result.proxy.passed_by = object.passed_by;
   result.proxy.solid = result.solid.get();
   return result;
 }

@@ -25,7 +25,8 @@ struct BoundingProxy {
   std::uint32_t leaf_index = invalid_index;  ///< of a lone leaf
   /// The object is merely somewhere within the solid: only what misses that is sure.
   bool is_within = false;
-  bool has_quick_spans = false;  ///< of the leaf
+  bool has_quick_spans = false;          ///< of the leaf
+  PassingRays passed_by = passing_none;  ///< these rays do not meet the object
 
   /// Returns whether rays that surely meet the solid meet the object.
   bool is_met_with_solid() const { return solid != nullptr && !is_within; }

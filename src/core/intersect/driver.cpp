@@ -163,12 +163,19 @@ PacketStarts Accelerator::noted_starts(const RayBatch& rays, RayMask some) const
   return starts;
 }
 
+template <class Real, class Asked>
+RayMask Accelerator::follow_kind(const Rays<Real>& rays, const Starts<Real>& starts, RayMask some,
+                                 const Asked& asked, PassingRays kind, RayWorkspace& work) const {
+  if ((kind & kinds_that_pass_) == 0) return follow<Real>(rays, starts, some, asked, work);
+  return follow<Real>(rays, starts, some, PassingSome<Asked>(asked, kind), work);
+}
+
 template <class Real>
 void Accelerator::find_nearest(const Rays<Real>& rays, RayMask some, std::span<RayHit> hits,
-                               RayWorkspace& work) const {
-  follow<Real>(rays, noted_starts(rays, some), some, AskNearest{hits}, work);
+                               RayWorkspace& work, PassingRays kind) const {
+  follow_kind<Real>(rays, noted_starts(rays, some), some, AskNearest{hits}, kind, work);
   for_each_ray(some, [&](std::size_t i) {
-    if (hits[i].has_coincident) hits[i] = gather_coincident(rays.ray(i), hits[i], work);
+    if (hits[i].has_coincident) hits[i] = gather_coincident(rays.ray(i), hits[i], kind, work);
   });
 }
 
@@ -200,15 +207,15 @@ template RayMask Accelerator::leave_by_tests<Lanes>(const BoundingProxy&, const 
                                                     RayMask, std::span<RayHit>,
                                                     RayWorkspace&) const;
 
-RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
+RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work, PassingRays kind) const {
   RayHit hit;
   if (isolated_.empty() || leave_isolated(ray, hit, work) == 0)
-    find_nearest<double>(ray, 1, {&hit, 1}, work);
+    find_nearest<double>(ray, 1, {&hit, 1}, work, kind);
   return hit;
 }
 
-bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
-  return follow<double>(ray, noted_starts(ray), 1, AskAny{}, work) == 0;
+bool Accelerator::any(const WorldRay& ray, RayWorkspace& work, PassingRays kind) const {
+  return follow_kind<double>(ray, noted_starts(ray), 1, AskAny{}, kind, work) == 0;
 }
 
 void Accelerator::all(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
@@ -263,21 +270,22 @@ bool Accelerator::pay_together(const RayBatch& rays, RayMask some, Packets packe
 
 void Accelerator::nearest_each(const RayBatch& rays, RayMask some,
                                std::span<RayHit, packet_size> hits, Packets packets,
-                               RayWorkspace& work) const {
+                               RayWorkspace& work, PassingRays kind) const {
   for_each_ray(some, [&](std::size_t i) { hits[i] = {}; });
   const RayMask pending = some & ~leave_isolated(rays, some, hits, work);
-  if (pay_together(rays, pending, packets)) return find_nearest<Lanes>(rays, pending, hits, work);
+  if (pay_together(rays, pending, packets))
+    return find_nearest<Lanes>(rays, pending, hits, work, kind);
   for_each_ray(pending, [&](std::size_t i) {
-    find_nearest<double>(rays.ray(i), 1, hits.subspan(i, 1), work);
+    find_nearest<double>(rays.ray(i), 1, hits.subspan(i, 1), work, kind);
   });
 }
 
 RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
-                              Packets packets, RayWorkspace& work) const {
+                              Packets packets, RayWorkspace& work, PassingRays kind) const {
   if (pay_together(rays, some, packets))
-    return some & ~follow<Lanes>(rays, starts, some, AskAny{}, work);
+    return some & ~follow_kind<Lanes>(rays, starts, some, AskAny{}, kind, work);
   RayMask found = 0;
-  for_each_ray(some, [&](std::size_t i) { found |= mask_of(any(rays.ray(i), work)) << i; });
+  for_each_ray(some, [&](std::size_t i) { found |= mask_of(any(rays.ray(i), work, kind)) << i; });
   return found;
 }
 
@@ -288,12 +296,13 @@ LightPaths Accelerator::paths_to_light(const RayBatch& rays, const PacketStarts&
   const std::span found(work.on_paths);
   RayMask reaching = 0;
   if (pay_together(rays, some, packets)) {
-    reaching = follow<Lanes>(rays, starts, some, AskLight{{}, opacity, found}, work);
+    const AskLight asked{{}, opacity, found};
+    reaching = follow_kind<Lanes>(rays, starts, some, asked, passing_shadow, work);
   } else {
     for_each_ray(some, [&](std::size_t i) {
       const WorldRay ray = rays.ray(i);
       const AskLight asked{{}, opacity, found.subspan(i, 1)};
-      reaching |= follow<double>(ray, noted_starts(ray), 1, asked, work) << i;
+      reaching |= follow_kind<double>(ray, noted_starts(ray), 1, asked, passing_shadow, work) << i;
     });
   }
   LightPaths paths{.blocked = some & ~reaching};
@@ -301,7 +310,7 @@ LightPaths Accelerator::paths_to_light(const RayBatch& rays, const PacketStarts&
   return paths;
 }
 
-RayHit Accelerator::gather_coincident(const WorldRay& ray, const RayHit& nearest,
+RayHit Accelerator::gather_coincident(const WorldRay& ray, const RayHit& nearest, PassingRays kind,
                                       RayWorkspace& work) const {
   WorldRay piece = ray;
   piece.t_max = std::min(
@@ -312,6 +321,11 @@ RayHit Accelerator::gather_coincident(const WorldRay& ray, const RayHit& nearest
   here.clear();
   near.clear();
   all(piece, near, work);
+  if ((kind & kinds_that_pass_) != 0) {
+    std::erase_if(near, [&](const RayHit& hit) {
+      return (compiled_.objects[hit.object].passed_by & kind) != 0;
+    });
+  }
   sort(ray, near, work);
   RayHit first = near.empty() ? nearest : near.front();
   const auto is_there = [&](const RayHit& crossing) { return have_one_t(crossing, first); };

@@ -48,6 +48,9 @@ class ObjectTests {
   /// Tests some rays against an object. Returns the rays whose limits it changed.
   RayMask test(const BoundingProxy& proxy, RayMask rays) {
     changed_ = 0;
+    if constexpr (Asked::passes_some) {
+      if (asked_.passes(proxy)) return 0;
+    }
     step(rays);
     rays &= ~filter_.left(proxy);
     if (rays == 0) return 0;
@@ -69,6 +72,9 @@ class ObjectTests {
 
   /// Lets an object that rays surely meet bound what else matters to them.
   void limit_by(const BoundingProxy& proxy) {
+    if constexpr (Asked::passes_some) {
+      if (asked_.passes(proxy)) return;
+    }
     step(active_);
     const RayMask rays = active_ & ~filter_.left(proxy);
     typename FilterRays<Real>::Parts parts;

@@ -23,6 +23,7 @@ struct Features {
   bool bumps = false;
   bool lens = false;  ///< has_lens() and more than one sample of it
   bool csg = false;
+  bool unseen = false;  ///< camera rays pass some object
   /// The light that a surface lets through is multiplied by at most this. It is 1 if none brightens
   /// it.
   double gain = 1;

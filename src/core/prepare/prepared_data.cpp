@@ -138,6 +138,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
       std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
   textures_.settle();
   features_ = find_features(scene_, materials_, geometry_->has_csg);
+  features_.unseen = (accelerator_->kinds_that_pass() & passing_camera) != 0;
 
   warnings_ = textures_.warnings();
   if (compiled_->leaves.empty() && !has_instances()) {
@@ -162,8 +163,8 @@ MemoryUse PreparedData::memory() const {
   return use;
 }
 
-RayHit PreparedData::intersect(const WorldRay& ray, RayWorkspace& work) const {
-  return accelerator_->nearest(ray, work);
+RayHit PreparedData::intersect(const WorldRay& ray, RayWorkspace& work, PassingRays kind) const {
+  return accelerator_->nearest(ray, work, kind);
 }
 
 bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
@@ -172,8 +173,8 @@ bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
 
 void PreparedData::intersect_each(const RayBatch& rays, RayMask some,
                                   std::span<RayHit, packet_size> hits, RayWorkspace& work,
-                                  Packets packets) const {
-  accelerator_->nearest_each(rays, some, hits, packets, work);
+                                  Packets packets, PassingRays kind) const {
+  accelerator_->nearest_each(rays, some, hits, packets, work, kind);
 }
 
 void PreparedData::prefetch_points(std::span<const RayHit, packet_size> hits, RayMask some) const {
@@ -185,9 +186,9 @@ RayMask PreparedData::occluded_each(const RayBatch& rays, RayMask some, RayWorks
   return accelerator_->any_each(rays, noted_starts(rays, some), some, packets, work);
 }
 
-RayMask PreparedData::occluded_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+RayMask PreparedData::shadowed_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
                                     RayWorkspace& work) const {
-  return accelerator_->any_each(rays, starts, some, Packets::where_they_pay, work);
+  return accelerator_->any_each(rays, starts, some, Packets::where_they_pay, work, passing_shadow);
 }
 
 PacketStarts PreparedData::noted_starts(const RayBatch& rays, RayMask some) const {

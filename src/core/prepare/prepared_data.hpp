@@ -82,7 +82,8 @@ class PreparedData {
 
   /// Returns the nearest crossing. Of crossings at one place it is that of the object that comes
   /// first in the scene.
-  RayHit intersect(const WorldRay& ray, RayWorkspace& work) const;
+  /// Rays of a kind do not meet the objects that let these pass.
+  RayHit intersect(const WorldRay& ray, RayWorkspace& work, PassingRays kind = passing_none) const;
 
   /// Asks whether any surface blocks the ray before its end.
   bool occluded(const WorldRay& ray, RayWorkspace& work) const;
@@ -90,14 +91,16 @@ class PreparedData {
   /// Finds the nearest crossings of some rays of a batch, each as intersect() would find it alone.
   /// But RayWorkspace::here and near mean nothing after it. Hits of other rays stay as they are.
   void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
-                      RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
+                      RayWorkspace& work, Packets packets = Packets::where_they_pay,
+                      PassingRays kind = passing_none) const;
   /// Prefetches the memory that the points of some of these hits need.
   void prefetch_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
   RayMask occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
                         Packets packets = Packets::where_they_pay) const;
 
-  /// Asks whether rays are blocked for which it is known what they start on.
-  RayMask occluded_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+  /// Asks whether light is blocked on its path along rays for which it is known what they start on.
+  /// It passes what casts no shadow.
+  RayMask shadowed_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
                         RayWorkspace& work) const;
   PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
@@ -196,6 +199,11 @@ class PreparedData {
     return entity_ids_[leaf < entity_ids_.size() ? leaf : 0];
   }
   bool has_instances() const { return !compiled_->instances.empty(); }
+
+  /// Returns whether rays of a kind pass an object.
+  bool is_passed(std::uint32_t object, PassingRays kind) const {
+    return (compiled_->objects[object].passed_by & kind) != 0;
+  }
 
   /// Returns whether a hit is on the boundary of a volume, not on a mere surface.
   bool is_solid(const RayHit& hit) const { return leaf(hit).of_solid; }

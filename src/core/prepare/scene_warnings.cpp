@@ -44,7 +44,7 @@ void PreparedData::warn_of_camera() {
         {.origin = position, .direction = normalize(scene_.camera.pointing - position)}, exits,
         work);
     const bool is_enclosed = std::any_of(exits.begin(), exits.end(), [this](const RayHit& exit) {
-      return materials_[hit_material(exit)].opaque;
+      return materials_[hit_material(exit)].opaque && !is_passed(exit.object, passing_camera);
     });
     if (is_enclosed)
       warnings_.emplace_back(

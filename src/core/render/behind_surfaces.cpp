@@ -46,7 +46,8 @@ void cross(Passage& passage, const RayHit& crossing) {
 const std::vector<RayHit>& passed_crossings(const Passage& passage, const WorldRay& before) {
   const PreparedData& data = passage.context.data;
   Workspace& work = passage.context.work;
-  data.intersect(before, work.rays);  // Others have been asked for since it was.
+  data.intersect(before, work.rays,
+                 passage.rays.passing());  // Others have been asked for since it was.
   std::vector<RayHit>& passed = work.crossings;
   passed.clear();
   const auto add_passed = [&](const RayHit& crossing, bool is_at_place) {

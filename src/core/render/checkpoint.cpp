@@ -19,7 +19,7 @@ namespace crt::core {
 
 namespace {
 
-constexpr std::string_view magic = "CRT checkpoint 4 of " CRT_VERSION "\n";
+constexpr std::string_view magic = "CRT checkpoint 5 of " CRT_VERSION "\n";
 
 // These are in seconds. The first checkpoint is to be there after 10, with the time that writing a
 // large one takes. Later on writing is to take a small part of the time, whatever the size.
@@ -38,7 +38,8 @@ void add(ByteHash& hash, const T&... numbers) {
 
 void add_settings(ByteHash& hash, const Settings& s) {
   add(hash, s.width, s.height, s.recursion_depth, s.min_weight, s.gamma, s.seed, s.precision,
-      s.target_error, s.min_samples, s.max_samples, s.filter, s.filter_width);
+      s.target_error, s.min_samples, s.max_samples, s.filter, s.filter_width, s.exposure,
+      s.tone_map, s.light_samples, s.indirect, s.clamp);
   if (s.compat != 0) add(hash, s.compat);
 }
 

@@ -127,7 +127,7 @@ LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const Pa
   const PreparedData& data = context.data;
   RayWorkspace& work = context.work.rays;
   if (data.features().transparency) return data.paths_to_light(batch, starts, some, work);
-  return {.blocked = data.occluded_each(batch, starts, some, work)};
+  return {.blocked = data.shadowed_each(batch, starts, some, work)};
 }
 
 /// Adds what gets through from all lights to surfaces and is sent back.

@@ -84,7 +84,7 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   const WorldRay middle = eye.ray(0);
   one_viewpoint_ = features().lens ? data.all_pass_by(camera_.lens_bounds())
                                    : !data.is_on_surface(middle.origin, work.rays);
-  if (one_viewpoint_) find_surrounding_media(data, middle, camera_media_, work);
+  if (one_viewpoint_) find_surrounding_media(data, middle, passing_camera, camera_media_, work);
   // In which order several solids hold a point of the lens depends on the ray.
   if (features().lens && camera_media_.size() > 1) {
     one_viewpoint_ = false;
@@ -92,14 +92,15 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   }
 }
 
-void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::vector<Medium>& out,
-                            Workspace& work) {
+void find_surrounding_media(const PreparedData& data, const WorldRay& ray, PassingRays kind,
+                            std::vector<Medium>& out, Workspace& work) {
   ++work.stats.media_lookups;
   out.clear();
   std::vector<RayHit>& exits = work.crossings;
   data.containing_solids(ray, exits, work.rays);
-  std::erase_if(
-      exits, [&](const RayHit& exit) { return data.materials()[data.hit_material(exit)].opaque; });
+  std::erase_if(exits, [&](const RayHit& exit) {
+    return data.materials()[data.hit_material(exit)].opaque || data.is_passed(exit.object, kind);
+  });
   if (exits.size() > max_media_at_once) exits.resize(max_media_at_once);
   if (exits.size() > 1) sort_by_entry(data, ray, exits, work);
   // Each solid gets the place that it would have if the ray had come from outside of all.

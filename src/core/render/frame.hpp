@@ -73,8 +73,9 @@ class Frame {
   std::vector<Medium> camera_media_;
 };
 
-/// Puts the transparent solids around the start of a ray into `out`, the outermost first.
-void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::vector<Medium>& out,
-                            Workspace& work);
+/// Puts the transparent solids around the start of a ray into `out`, the outermost first. Those
+/// that rays of the kind pass are left out.
+void find_surrounding_media(const PreparedData& data, const WorldRay& ray, PassingRays kind,
+                            std::vector<Medium>& out, Workspace& work);
 
 }  // namespace crt::core

@@ -71,7 +71,7 @@ Passes::Passes(const Frame& frame, const Region& region, int max_passes, bool wi
       by_clock_(max_passes == 0 && clock.has_budget()),
       clock_(clock),
       canvas_(canvas),
-      scale_(frame.settings().gamma),
+      scale_(frame.settings().gamma, ToneCurve(frame.settings())),
       target_(frame.settings().target_error > 0 ? frame.settings().target_error : finest_error),
       store_(pixel_count(worked_on_)),
       subpixel_objects_(subpixel_objects(frame, worked_on_)) {

@@ -9,9 +9,9 @@ namespace crt::core {
 namespace {
 
 /// Returns the hit of that surface which is seen of several at the place of a ray's first hit.
-RayHit seen_hit(TraceContext& context, const WorldRay& ray) {
+RayHit seen_hit(TraceContext& context, const WorldRay& ray, PassingRays kind) {
   Workspace& work = context.work;
-  RayHit seen = context.data.intersect(ray, work.rays);
+  RayHit seen = context.data.intersect(ray, work.rays, kind);
   double least = std::numeric_limits<double>::infinity();
   for (const RayHit& crossing : work.rays.here) {
     const double transparency =
@@ -29,7 +29,9 @@ RayHit seen_hit(TraceContext& context, const WorldRay& ray) {
 PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits) {
   const PreparedData& data = context.data;
   context.count_rays(static_cast<unsigned>(rays.count));
-  data.intersect_each(rays.batch, rays.all(), hits.hits, context.work.rays);
+  const PassingRays kind = rays.passing();
+  data.intersect_each(rays.batch, rays.all(), hits.hits, context.work.rays, Packets::where_they_pay,
+                      kind);
   data.prefetch_points(hits.hits, rays.all());
   hits.found = 0;
   hits.on_light = 0;
@@ -37,7 +39,7 @@ PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits)
   for (std::size_t i = 0; i < rays.count; ++i) {
     RayHit& hit = hits.hits[i];
     if (hit.has_coincident && data.features().transparency) {
-      hit = seen_hit(context, rays.batch.ray(i));
+      hit = seen_hit(context, rays.batch.ray(i), kind);
     }
     hits.found |= mask_of(hit.found()) << i;
   }
@@ -47,7 +49,8 @@ PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits)
 void meet_lights(const TraceContext& context, const PathRays& rays, PathHits& hits) {
   const std::vector<PreparedLight>& lights = context.frame.lights();
   // The surfaces that diffuse rays come from have taken samples of all lights.
-  const RayMask some = rays.all() & ~rays.of_kind(RayKind::diffuse);
+  const bool is_indirect = context.frame.settings().indirect > 0;
+  const RayMask some = rays.all() & ~(is_indirect ? rays.of_kind(RayKind::diffuse) : 0);
   for (std::uint32_t number = 0; number < lights.size(); ++number) {
     if (!lights[number].is_visible()) continue;
     RayPacket::for_each_group(some, [&](std::size_t group, RayMask lanes) {

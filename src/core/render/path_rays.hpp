@@ -50,6 +50,8 @@ struct PathRays {
     return mask;
   }
   bool are_from_camera() const { return states[0].kind == RayKind::camera; }
+  /// Returns their kind, by which they may pass objects.
+  PassingRays passing() const { return are_from_camera() ? passing_camera : passing_none; }
 
   /// Adds the ray that a sample follows next.
   [[gnu::always_inline]] void add(const PathRay& ray, SampleWork& work, Sample& sample) {

@@ -20,8 +20,10 @@ class AbsorbedShare final : private MediaAlongRay::Line {
   /// Returns the share of light that is left for a ray that starts within `media`.
   Rgb share(const MediaLists& lists, MediaLists::List media) {
     media_.begin(crossings_, *this);
-    for (; media != MediaLists::empty; media = lists.around(media))
-      media_.surround(lists.innermost(media));
+    for (; media != MediaLists::empty; media = lists.around(media)) {
+      const Medium& medium = lists.innermost(media);
+      if (!data_.is_passed(medium.object, passing_shadow)) media_.surround(medium);
+    }
     for (std::size_t begin = 0; begin < crossings_.size();) {
       std::size_t end = begin + 1;
       while (end < crossings_.size() && have_one_t(crossings_[begin], crossings_[end])) ++end;

@@ -182,6 +182,7 @@ std::vector<bool> subpixel_objects(const Frame& frame, const Region& region) {
   Marks marks(camera, region);
   for (const SceneObject& object : scene.objects) {
     if (!object.solid || !object.bounds.finite() || object.bounds.empty()) continue;
+    if ((object.passed_by & passing_camera) != 0) continue;
     const std::optional<CoreSegment> segment = core_segment_of(scene, object);
     if (segment && marks.add(*segment)) continue;
     if (is_surely_large(camera, object.bounds)) continue;

@@ -1,5 +1,6 @@
 #include "core/render/tracer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/render/next_rays.hpp"
@@ -19,7 +20,8 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
 /// It is seen, and lights nothing.
 void add_background(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
   const bool is_seen_through = rays.are_from_camera();
-  PathLight light{.rays = hits.on_background() & ~rays.after_diffuse(), .colors = {}};
+  PathLight light{.rays = hits.on_background(), .colors = {}};
+  if (context.frame.settings().indirect > 0) light.rays &= ~rays.after_diffuse();
   RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask lanes) {
     const ColorLanes seen =
         context.data.background().colors(rays.batch.lines[group].direction, lanes);
@@ -79,6 +81,7 @@ void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samp
     absorb(context_, *rays, hits);
     const Surfaces& surfaces = surfaces_of(context_, *rays, hits, !first_hits.empty(), surfaces_);
     report(hits, surfaces, std::exchange(first_hits, {}));
+    if (context_.data.features().unseen) enter_unseen_media(*rays, surfaces);
     if (context_.identifies) identify_hits(context_.data, *rays, hits);
     add_background(context_, *rays, hits);
     if (hits.on_light != 0) add_visible_lights(context_, *rays, hits);
@@ -129,10 +132,30 @@ void Tracer::start_media(PathRays& rays) {
     MediaLists& lists = rays.works[i]->media;
     lists.release(camera_state_.media_mark);
     if (context_.frame.one_viewpoint()) continue;
-    find_surrounding_media(context_.data, rays.batch.ray(i), surrounding, context_.work);
+    find_surrounding_media(context_.data, rays.batch.ray(i), passing_camera, surrounding,
+                           context_.work);
     rays.states[i].media = nested(lists, surrounding);
     rays.states[i].media_mark = lists.mark();
   }
+}
+
+void Tracer::enter_unseen_media(PathRays& rays, const Surfaces& surfaces) {
+  const PreparedData& data = context_.data;
+  if (!rays.are_from_camera() || !data.features().transparency) return;
+  std::vector<Medium>& surrounding = context_.work.surrounding;
+  for_each_ray(surfaces.rays, [&](std::size_t i) {
+    const SurfaceLane from = surfaces.of(i);
+    const WorldRay back{
+        .origin = from.position(), .direction = -rays.batch.direction(i), .start = from.start()};
+    find_surrounding_media(data, back, passing_none, surrounding, context_.work);
+    const bool any_unseen = std::any_of(
+        surrounding.begin(), surrounding.end(),
+        [&](const Medium& medium) { return data.is_passed(medium.object, passing_camera); });
+    if (!any_unseen) return;
+    MediaLists& lists = rays.works[i]->media;
+    rays.states[i].media = nested(lists, surrounding);
+    rays.states[i].media_mark = lists.mark();
+  });
 }
 
 }  // namespace crt::core

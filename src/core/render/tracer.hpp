@@ -38,6 +38,9 @@ class Tracer {
                   std::span<const SampleId> ids);
   /// Finds the solids that these start in.
   void start_media(PathRays& rays);
+  /// Lets what comes from surfaces within transparent solids that the camera does not see be within
+  /// them.
+  void enter_unseen_media(PathRays& rays, const Surfaces& surfaces);
 
   TraceContext context_;
   PathState camera_state_;  ///< of all rays that start in Frame::camera_media()

@@ -35,8 +35,10 @@ constexpr int alpha_channel = pixel_channels - 1;
 }  // namespace
 
 Lanes DisplayScale::shown(const Lanes& values, int channel) const {
-  const Lanes clamped = clamp(values, Lanes{}, lanes_of(1));
-  const bool is_linear = exponent_ == 1 || channel == alpha_channel;
+  const bool is_alpha = channel == alpha_channel;
+  const Lanes toned = is_alpha || tone_.is_identity() ? values : tone_(values);
+  const Lanes clamped = clamp(toned, Lanes{}, lanes_of(1));
+  const bool is_linear = exponent_ == 1 || is_alpha;
   return is_linear ? clamped : rough_power(clamped, lanes_of(exponent_));
 }
 
@@ -51,8 +53,9 @@ Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& inte
   const std::array<Lanes, pixel_channels> means = transposed({a.mean, b.mean, c.mean, d.mean});
   const std::array<Lanes, pixel_channels> half_widths =
       transposed({a.half_width, b.half_width, c.half_width, d.half_width});
-  // The scale is concave, so with as much margin below, nothing above is farther from the mean.
-  LaneMask is_below = lanes_with(exponent_ <= 1 ? (1u << lane_count) - 1 : 0);
+  // A concave scale has nothing above that is farther from the mean, with as much margin below.
+  const bool is_concave = exponent_ <= 1 && tone_.is_linear();
+  LaneMask is_below = lanes_with(is_concave ? (1u << lane_count) - 1 : 0);
   for (std::size_t i = 0; i < means.size(); ++i) is_below &= means[i] - half_widths[i] >= 0.0;
   for (int channel = 0; channel < pixel_channels; ++channel) {
     const Lanes& mean = means[static_cast<std::size_t>(channel)];

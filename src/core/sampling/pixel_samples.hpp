@@ -17,6 +17,7 @@
 #include <limits>
 
 #include "core/math/lanes.hpp"
+#include "core/math/tone_curve.hpp"
 
 namespace crt::core {
 
@@ -70,7 +71,8 @@ struct MeanInterval {
 /// A DisplayScale is what a viewer sees of red, green, blue and alpha.
 class DisplayScale {
  public:
-  explicit DisplayScale(double gamma) : exponent_(1 / gamma) {}
+  explicit DisplayScale(double gamma, const ToneCurve& tone = {})
+      : exponent_(1 / gamma), tone_(tone) {}
 
   /// Returns half of the widths of intervals on a display: the farthest that anything in them is
   /// from the mean, in the worst channel. Four intervals at once take little longer than one.
@@ -81,6 +83,7 @@ class DisplayScale {
   Lanes shown(const Lanes& values, int channel) const;
 
   double exponent_;
+  ToneCurve tone_;
 };
 
 /// A SampleCount holds what follows from the number of samples of a pixel, which is at least one.

@@ -37,6 +37,17 @@ TEST_CASE("a difference is measured in 8-bit steps of what a display shows") {
   // After gamma 2 a quarter shows as a half.
   CHECK(displayed_difference(plain(5, 4, 0, 2), plain(5, 4, 0.25, 2)).rmse ==
         doctest::Approx(127.5));
+  // Exposure and tone map are those of the reference.
+  Image exposed = plain(5, 4, 0.25);
+  Settings settings = exposed.settings();
+  settings.exposure = 1;
+  exposed.set_settings(settings);
+  CHECK(displayed_difference(plain(5, 4, 0.25 + 0.5 / 255), exposed).rmse ==
+        doctest::Approx(1).epsilon(1e-4));
+  settings.tone_map = ToneMap::filmic;
+  exposed.set_settings(settings);
+  CHECK(displayed_difference(plain(5, 4, 8), exposed).rmse ==
+        doctest::Approx(255 * (1 - displayed(0.25, settings))));
   // Whiter than white counts as white, and less than nothing as black.
   CHECK(displayed_difference(plain(2, 2, 7), plain(2, 2, 1)).rmse == 0);
   CHECK(displayed_difference(plain(2, 2, -3), plain(2, 2, 0)).rmse == 0);
