@@ -1662,13 +1662,13 @@ typedef struct crt_hit_part {
   /**
    * Numbers the faces of the primitive. A box has 0 and 1 across x at its lower and upper end, 2
    * and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side, 1 at
-   * `from`, 2 at `to`. Rounded boxes have 0 to 5 as boxes, 6 to 17 for the edges, four each along x, y
-   * and z, and 18 to 25 for the corners. Extrusions have 0 and 1 for the lower and the upper end, and revolutions for
-   * where the turn begins and ends. Both have further numbers for their sides. Height fields have 0
-   * and 1 across x at the lower and the upper end, 2 and 3 across z, 4 for the bottom, and further
-   * numbers for the triangles of their cells. Implicit solids have 0 for where the field is 0, and
-   * the faces of their box from 1 on. Meshes have the place of the triangle among those
-   * with an area. All others have 0.
+   * `from`, 2 at `to`. Rounded boxes have 0 to 5 as a box has, 6 to 17 for the edges, four each
+   * along x, y and z, and 18 to 25 for the corners. Extrusions have 0 and 1 for the lower and the
+   * upper end, and revolutions for where the turn begins and ends. Both have further numbers for
+   * their sides. Height fields have 0 and 1 across x at the lower and the upper end, 2 and 3 across
+   * z, 4 for the bottom, and further numbers for the triangles of their cells. Implicit solids have
+   * 0 for where the field is 0, and the faces of their box from 1 on. Meshes have the place of the
+   * triangle among those with an area. All others have 0.
    */
   uint32_t face;
   uint32_t reserved; /**< 0 */

@@ -324,8 +324,7 @@ Equations<Number> equations(const Quadric& q, const ExactLine<Number>& line) {
 // A rounded box has the equations of its flat faces, as a box, and then others (rounded_box.hpp).
 template <class Number>
 Equations<Number> equations(const RoundedBox& b, const ExactLine<Number>& line) {
-  Equations<Number> result =
-      equations(Box{.corner_a = b.corner_a, .corner_b = b.corner_b}, line);
+  Equations<Number> result = equations(Box{.corner_a = b.corner_a, .corner_b = b.corner_b}, line);
   append_rounding(b, line, result);
   return result;
 }

@@ -15,7 +15,8 @@ namespace crt::test {
 using RoundedPlaces = std::array<int, 3>;
 
 /// Returns how far a point is from the inner box of a rounded box, along each axis. That is less
-/// than 0 below it, and above 0 above it. `lower` and `upper` are the point relative to the corners.
+/// than 0 below it, and above 0 above it. `lower` and `upper` are the point relative to the
+/// corners.
 template <class Number>
 NumberVec<Number> beyond_inner_box(const RoundedBox& b, const RoundedPlaces& places,
                                    const NumberVec<Number>& lower, const NumberVec<Number>& upper) {

@@ -107,8 +107,7 @@ class ExactWalk {
 
   static Dyadic value_at(const ExactQuadratic& of, const End& end) {
     const Dyadic cross_term = of.b * end.numerator * end.denominator;
-    return of.a * square(end.numerator) + cross_term + cross_term +
-           of.c * square(end.denominator);
+    return of.a * square(end.numerator) + cross_term + cross_term + of.c * square(end.denominator);
   }
   static Dyadic slope_at(const ExactQuadratic& of, const End& end) {
     return of.a * end.numerator + of.b * end.denominator;
@@ -145,8 +144,8 @@ class ExactRoundedBoxShape final : public ExactShape {
       Crossing enter;
       Crossing leave;
       bool is_certain = refine(ray, line, walk.enter, true, enter);
-      const bool is_enough = is_certain && ray.near.start.face == invalid_index &&
-                             ray.near.is_first_asked(enter);
+      const bool is_enough =
+          is_certain && ray.near.start.face == invalid_index && ray.near.is_first_asked(enter);
       if (is_certain && !is_enough) is_certain = refine(ray, line, walk.leave, false, leave);
       if (!is_certain) {
         append_exact(ray, out);
@@ -166,9 +165,9 @@ class ExactRoundedBoxShape final : public ExactShape {
     if (crossing.face < flat_faces_of_box)
       return root_at(ray, crossing, faces_[crossing.face].equation(ray.exact()));
     const ExactQuadratic equation = walk(ray).equation(sides_of(crossing.face));
-    return root_at(ray, crossing,
-                   ray.near.start.face == crossing.face ? equation.beside_zero()
-                                                        : equation.polynomial());
+    return root_at(
+        ray, crossing,
+        ray.near.start.face == crossing.face ? equation.beside_zero() : equation.polynomial());
   }
 
   ExactSurface surface(std::uint32_t face) const override {
@@ -284,8 +283,7 @@ class ExactRoundedBoxShape final : public ExactShape {
       constexpr double change_rounding = 0x1p-48;
       const NewtonStep newton{
           .change = change,
-          .value_error =
-              2 * size * p.error + precise_roundoff * (size * size + radius_ * radius_),
+          .value_error = 2 * size * p.error + precise_roundoff * (size * size + radius_ * radius_),
           .rate = 2 * slope,
           .rate_error = 2 * change_rounding * size * largest_component(d),
           .half_curvature = squared_speed};
@@ -366,11 +364,10 @@ class ExactRoundedBoxShape final : public ExactShape {
     const DoubleDouble t{2 * half.hi, 2 * half.lo};
     const double size = sum_of_sizes(q);
     const double speed = std::sqrt(a.hi);
-    const double error = 2 *
-                             (2 * speed * p.error + size * ray.direction_error +
-                              precise_roundoff * size * speed) /
-                             a.hi +
-                         (precise_roundoff + 4 * ray.direction_error / speed) * std::abs(t.hi);
+    const double error =
+        2 * (2 * speed * p.error + size * ray.direction_error + precise_roundoff * size * speed) /
+            a.hi +
+        (precise_roundoff + 4 * ray.direction_error / speed) * std::abs(t.hi);
     if (settle(ray, t, error, crossing)) return crossing;
     return exact_crossing(walk(ray).equation(sides).root_beside_zero(), crossing);
   }

@@ -93,9 +93,9 @@ Crossing RoundedBoxShape::flat_crossing(const ObjectRay& ray, const NearLine& li
   if (face == ray.start.face) return {.face = face, .entering = entering};
   const int axis = static_cast<int>(face / 2);
   const Bounds bounds = box_.bounds();
-  const auto meeting = AxisMeeting<double>::of(
-      (face % 2 == 0 ? bounds.lower : bounds.upper)[axis], ray.origin[axis], ray.direction[axis],
-      ray.origin_low[axis], ray.direction_low[axis]);
+  const auto meeting =
+      AxisMeeting<double>::of((face % 2 == 0 ? bounds.lower : bounds.upper)[axis], ray.origin[axis],
+                              ray.direction[axis], ray.origin_low[axis], ray.direction_low[axis]);
   const double from = line.to_t(step.from);
   const double to = line.to_t(step.to);
   const double t = !(meeting.t >= from) ? from : std::min(meeting.t, to);
@@ -118,11 +118,9 @@ template <class Real>
 void RoundedBoxShape::write_round_point(const Vec3Of<Real>& offset, std::uint32_t face,
                                         bool with_uv, SurfacePointOf<Real>& point) const {
   const Sides sides = sides_of(face);
-  const Vec3 size = layout_.upper - layout_.lower;
+  const Vec3Of<Real> p = broadcast<Real>(1 / layout_.unit) * offset;
   Vec3Of<Real> q = broadcast<Real>(Vec3(0));
   Vec3 outwards(0);
-  const Vec3Of<Real> p = broadcast<Real>(1 / layout_.unit) * offset;
-  Vec3Of<Real> share = (p - broadcast<Real>(layout_.lower)) / broadcast<Real>(size);
   for (int axis = 0; axis < 3; ++axis) {
     const int side = sides[static_cast<std::size_t>(axis)];
     outwards[axis] = side;
@@ -143,8 +141,9 @@ void RoundedBoxShape::write_round_point(const Vec3Of<Real>& offset, std::uint32_
                          broadcast<Real>(bounds.lower), broadcast<Real>(bounds.upper));
   point.normal = n;
   if (!with_uv) return;
-  share = clamp((place - broadcast<Real>(layout_.lower)) / broadcast<Real>(size),
-                broadcast<Real>(Vec3(0)), broadcast<Real>(Vec3(1)));
+  const Vec3Of<Real> share = clamp(
+      (place - broadcast<Real>(layout_.lower)) / broadcast<Real>(layout_.upper - layout_.lower),
+      broadcast<Real>(Vec3(0)), broadcast<Real>(Vec3(1)));
   const auto is_x = abs(n.x) >= abs(n.y) && abs(n.x) >= abs(n.z);
   const auto is_y = abs(n.y) >= abs(n.z) && !is_x;
   point.u = select(is_x, share.z, share.x);
@@ -196,7 +195,7 @@ void validate(const RoundedBox& box) {
       rounding * std::max(largest_component(box.corner_a), largest_component(box.corner_b));
   if (!(box.radius <= largest + slack)) {
     reject("radius", text::format("must be at most {}, half of the shortest side (it is {})",
-                                 largest, box.radius));
+                                  largest, box.radius));
   }
 }
 

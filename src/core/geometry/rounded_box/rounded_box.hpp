@@ -8,16 +8,15 @@
 // which the line enters and leaves. A flat face is then met as that of a Box is, at the same bits.
 // Of a round one the quadratic is solved relative to the closest approach to the edge or the
 // corner, as that of a sphere is.
-// Source: the distance from a box is that of Quilez, Distance functions, iquilezles.org, 2008; a
-// walk over the pieces of a convex function needs none.
+// Source: the distance from a box is that of Quilez, Distance functions, iquilezles.org.
 //
 // Roundings. Coordinates are relative to the center, so they are off by some u of the box's size,
-// wherever it is and however small the radius. So a crossing next to a seam may be found in the
-// piece beside, which is tangent there. As the walk goes from piece to piece, none is lost between
-// them, and none counts twice.
+// wherever it is and however small the radius. A crossing next to a seam may be found in the piece
+// beside, which is tangent there. As the walk goes from piece to piece, none is lost between them,
+// and none counts twice.
 //
 // A ray that starts on the surface walks on from there. The surface is taken to be where the start
-// is, |q| = |q(0)|, so the root at the start is divided out, and no other piece is met beside it.
+// is, |q| = |q(0)|. So the root at the start is divided out, and no other piece is met beside it.
 //
 // Faces: 0 to 5 are the flat ones, numbered as those of a Box. 6 to 9 are the edges along x, 10 to
 // 13 along y, 14 to 17 along z. Of four edges the first is at the lower end of both other axes, the
@@ -61,7 +60,7 @@ class RoundedBoxShape final : public Shape {
                     bool entering) const;
   Crossing flat_crossing(const ObjectRay& ray, const NearLine& line, const WalkStep& step,
                          bool entering) const;
-  /// Returns where a ray leaves that starts on the surface and goes in.
+  /// Returns where a ray leaves that starts on a face and goes in. It may have been turned round.
   Crossing exit_from_surface(const ObjectRay& ray) const;
   /// Writes the point of a round face next to `offset` from the center.
   template <class Real>
@@ -92,14 +91,15 @@ inline double radius_of(const RoundedBox& box) {
   return std::min(box.radius, largest_radius(box));
 }
 
-/// Returns the start of a ray on a face of a rounded box, which is within what other faces bound. A
-/// round face is all of its surface.
+/// Returns whether a ray starts on a face of a rounded box, and not beside it in its plane. A round
+/// face is all of its surface.
 inline bool starts_on_face(const FaceStart& start) {
   if (start.face == invalid_index) return false;
   return start.on_face || start.face >= flat_faces_of_box;
 }
 
-/// Moves a crossing to the side of a plane's meeting, at 0, where all of the box is.
+/// Moves a crossing of a ray that starts in the plane of a flat face, at t = 0, to the side of it
+/// where the box is.
 inline void move_behind_plane(const FaceStart& start, Crossing& crossing) {
   if (start.side == Side::outside ? crossing.t > 0 : crossing.t < 0) {
     crossing.t = 0;

@@ -45,7 +45,8 @@ bool is_inside(const RoundedBoxLayout& box, const Sides& sides, const Vec3& p) {
       nearest = q;
     }
   }
-  return depth == infinity || (depth > 0 && others < depth * (2 * box.radius - depth));
+  if (depth == infinity) return true;
+  return depth > 0 && (others == 0 || others < depth * (2 * box.radius - depth));
 }
 
 /// Returns whether the distance from the inner box does not fall, as a line goes on from a point.
@@ -230,8 +231,7 @@ WayOut way_out(const RoundedBoxLayout& box, const NearLine& line) {
     }
     // Within rounding of it the line has not left, as it may yet go along the surface.
     constexpr double slack = 1 + 0x1p-48;
-    return is_last ||
-           squared(box.beyond(step.sides, line.at(step.to))) > slack * squared_radius;
+    return is_last || squared(box.beyond(step.sides, line.at(step.to))) > slack * squared_radius;
   });
   return way;
 }
