@@ -557,6 +557,12 @@ CRT_API crt_status crt_capsule_create(const double from[3], const double to[3], 
 CRT_API crt_status crt_ellipsoid_create(const double center[3], const double radii[3],
                                         crt_entity** out);
 /**
+ * Makes a box between two corners whose edges and corners are rounded with `radius`, which is from
+ * 0 to half of the shortest side. Since 1.1.
+ */
+CRT_API crt_status crt_rounded_box_create(const double corner_a[3], const double corner_b[3],
+                                          double radius, crt_entity** out);
+/**
  * Makes a torus: all points within `thickness` of the circle of `radius` about `center` across
  * `axis`.
  */
@@ -1702,12 +1708,13 @@ typedef struct crt_hit_part {
   /**
    * Numbers the faces of the primitive. A box has 0 and 1 across x at its lower and upper end, 2
    * and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side, 1 at
-   * `from`, 2 at `to`. Extrusions have 0 and 1 for the lower and the upper end, and revolutions for
-   * where the turn begins and ends. Both have further numbers for their sides. Height fields have 0
-   * and 1 across x at the lower and the upper end, 2 and 3 across z, 4 for the bottom, and further
-   * numbers for the triangles of their cells. Implicit solids have 0 for where the field is 0, and
-   * the faces of their box from 1 on. Meshes have the place of the triangle among those
-   * with an area. All others have 0.
+   * `from`, 2 at `to`. Rounded boxes have 0 to 5 as a box has, 6 to 17 for the edges, four each
+   * along x, y and z, and 18 to 25 for the corners. Extrusions have 0 and 1 for the lower and the
+   * upper end, and revolutions for where the turn begins and ends. Both have further numbers for
+   * their sides. Height fields have 0 and 1 across x at the lower and the upper end, 2 and 3 across
+   * z, 4 for the bottom, and further numbers for the triangles of their cells. Implicit solids have
+   * 0 for where the field is 0, and the faces of their box from 1 on. Meshes have the place of the
+   * triangle among those with an area. All others have 0.
    */
   uint32_t face;
   uint32_t reserved; /**< 0 */

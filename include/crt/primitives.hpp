@@ -261,6 +261,19 @@ struct Quadric {
   std::optional<SharedMaterial> material{};
 };
 
+/// A RoundedBox is a box whose edges and corners are round: all points within `radius` of an inner
+/// box, which is that between the two corners less `radius` on each side. The corners differ by at
+/// least 1e-100 in every coordinate. The radius is at most half of the shortest side. One that
+/// rounding makes larger, by no more than 2^-50 of the corners' largest coordinate, counts as that
+/// half. With a radius of 0 it is a Box. (u, v) are those of a Box between the corners: those of
+/// the point that is beside it on the face which its normal is nearest to.
+struct RoundedBox {
+  Vec3 corner_a{-1, -1, -1};
+  Vec3 corner_b{1, 1, 1};
+  double radius = 0.25;
+  std::optional<SharedMaterial> material{};
+};
+
 /// An Implicit has all points between two corners of a box at which a field is at most 0. The
 /// corners differ by at least 1e-100 in every coordinate. Where the field has no value is outside.
 /// Where a line enters and leaves is proved by interval arithmetic. What that cannot decide within
@@ -284,6 +297,6 @@ struct Custom {
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive =
     std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle, Capsule,
-                 Mesh, Extrusion, Revolution, HeightField, Quadric, Implicit, Custom>;
+                 Mesh, Extrusion, Revolution, HeightField, Quadric, RoundedBox, Implicit, Custom>;
 
 }  // namespace crt

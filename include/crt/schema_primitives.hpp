@@ -161,6 +161,16 @@ inline constexpr auto table<Quadric> = Table{
 };
 
 template <>
+inline constexpr auto table<RoundedBox> = Table{
+    "RoundedBox",
+    field("corner_a", &RoundedBox::corner_a, point, required, "any corner"),
+    field("corner_b", &RoundedBox::corner_b, opposite_to("corner_a"), required, "the opposite one"),
+    field("radius", &RoundedBox::radius, length_or_zero, required,
+          "of edges and corners, at least 0 and at most half of the shortest side"),
+    material<RoundedBox>,
+};
+
+template <>
 inline constexpr auto table<Implicit> = Table{
     "Implicit",
     field("field", &Implicit::field, any, required, "see below"),

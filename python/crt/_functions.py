@@ -88,6 +88,13 @@ FUNCTIONS = {
         "const double radii[3]",
         "crt_entity** out",
     ),
+    "crt_rounded_box_create": (
+        "crt_status",
+        "const double corner_a[3]",
+        "const double corner_b[3]",
+        "double radius",
+        "crt_entity** out",
+    ),
     "crt_torus_create": (
         "crt_status",
         "const double center[3]",

@@ -36,6 +36,7 @@ __all__ = [
     "Plane",
     "Quadric",
     "Revolution",
+    "RoundedBox",
     "Sphere",
     "Superellipsoid",
     "Torus",
@@ -187,6 +188,26 @@ class Box(_Primitive):
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, corner_a=corner_a, corner_b=corner_b)
+
+
+class RoundedBox(_Primitive):
+    """A RoundedBox is a Box whose edges and corners are rounded. The radius is from 0 to half of
+    the shortest side."""
+
+    corner_a = _Given[Vector]()
+    corner_b = _Given[Vector]()
+    radius = _Given[float]()
+
+    def __init__(
+        self,
+        corner_a: Point,
+        corner_b: Point,
+        radius: SupportsFloat,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        self._make(material, id, corner_a=corner_a, corner_b=corner_b, radius=radius)
 
 
 class Plane(_Primitive):

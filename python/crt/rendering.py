@@ -140,12 +140,13 @@ class Prepared(Handle):
         see `id=` and Entity.with_id. Without any it is the entity's place in the scene. `face`
         numbers the faces of the primitive. A crt.Box has 0 and 1 across x at its lower and upper
         end, 2 and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side,
-        1 at their start and 2 at their end. A crt.Extrusion has 0 at its start and 1 at its end,
-        and a crt.Revolution where its turn begins and ends. Both have further numbers for their
-        sides. A crt.HeightField has 0 and 1 across x at its lower and upper end, 2 and 3 across z,
-        4 for its bottom, and further numbers for the triangles of its cells. Meshes have the place
-        of the triangle among those with an area. All others have 0. A miss has crt.NO_ENTITY for
-        all three.
+        1 at their start and 2 at their end. A crt.RoundedBox has 0 to 5 as a crt.Box has, 6 to 17
+        for its edges, four each along x, y and z, and 18 to 25 for its corners. A crt.Extrusion has
+        0 at its start and 1 at its end, and a crt.Revolution where its turn begins and ends. Both
+        have further numbers for their sides. A crt.HeightField has 0 and 1 across x at its lower
+        and upper end, 2 and 3 across z, 4 for its bottom, and further numbers for the triangles of
+        its cells. Meshes have the place of the triangle among those with an area. All others have
+        0. A miss has crt.NO_ENTITY for all three.
         """
         return _queries.hit_parts(self._handle, Batch(rays, RAY, "rays"))
 

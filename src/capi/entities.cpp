@@ -117,6 +117,11 @@ crt_status crt_ellipsoid_create(const double center[3], const double radii[3], c
   return create_of<crt::Ellipsoid>(out, center, radii);
 }
 
+crt_status crt_rounded_box_create(const double corner_a[3], const double corner_b[3], double radius,
+                                  crt_entity** out) {
+  return create_of<crt::RoundedBox>(out, corner_a, corner_b, radius);
+}
+
 crt_status crt_torus_create(const double center[3], const double axis[3], double radius,
                             double thickness, crt_entity** out) {
   return create_of<crt::Torus>(out, center, axis, radius, thickness);

@@ -2,6 +2,7 @@
 // animations do that begin with nothing. The core's shapes all have a size.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -83,6 +84,14 @@ inline std::optional<NoSize> give_own_size(Extrusion& extrusion) {
 
 inline std::optional<NoSize> give_own_size(Revolution& revolution) {
   return size_given(revolution.angle, "angle");
+}
+
+inline std::optional<NoSize> give_own_size(RoundedBox& box) {
+  // No radius fits the shortest side of a flat one, which is moved below.
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.corner_a[axis] == box.corner_b[axis]) box.radius = std::min(box.radius, 0.0);
+  }
+  return std::nullopt;
 }
 
 /// Gives a primitive without a size one, so that all else about it can be checked as usual.

@@ -88,7 +88,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(19);
+  const std::uint32_t kind = input_.below(20);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -160,6 +160,8 @@ void Session::make_primitive() {
         crt::test::describe_any(input_, a, b, custom);
         return crt_custom_create(&custom, out);
       }
+      case 18:
+        return crt_rounded_box_create(a.data(), b.data(), r, out);
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};

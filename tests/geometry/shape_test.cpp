@@ -53,9 +53,9 @@ TEST_CASE(
   const Revolution revolution{.profile = extrusion.profile};
   const HeightField field{.heights = make_height_grid({0, 0.5, 1, 0}, 2, 2)};
   const Custom custom = as_custom(Sphere{});
-  const Primitive all[] = {Sphere{},   Box{},  Plane{},    HalfPlane{}, Cylinder{}, Cone{},
-                           Torus{},    Disc{}, Triangle{}, Capsule{},   mesh,       extrusion,
-                           revolution, field,  Quadric{},  Implicit{},  custom};
+  const Primitive all[] = {Sphere{},   Box{},  Plane{},    HalfPlane{},  Cylinder{}, Cone{},
+                           Torus{},    Disc{}, Triangle{}, Capsule{},    mesh,       extrusion,
+                           revolution, field,  Quadric{},  RoundedBox{}, Implicit{}, custom};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");

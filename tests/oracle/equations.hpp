@@ -9,6 +9,7 @@
 #include "crt/transform.hpp"
 #include "oracle/number_vec.hpp"
 #include "oracle/roots.hpp"
+#include "oracle/rounded_box.hpp"
 #include "oracle/without_oracle.hpp"
 
 namespace crt::test {
@@ -121,15 +122,15 @@ struct Relative {
 };
 
 /// A primitive has at most so many equations.
-inline constexpr std::size_t max_equations = 10;
+inline constexpr std::size_t max_equations = 32;
 template <class Number>
 using Equations = Few<Polynomial<Number>, max_equations>;
 
 /// A cylinder has the equations of its side and of its caps.
 inline constexpr std::ptrdiff_t cylinder_equations = 3;
 
-// A solid is where all its polynomials are negative, except the torus, the capsule, the extrusion
-// the revolution and the height field.
+// A solid is where all its polynomials are negative, except the torus, the capsule, the extrusion,
+// the revolution, the height field and the rounded box.
 
 // A truncated cone about `axis` = to - from, A = axis . axis, k = radius2 - radius, w = p - from,
 // h = w . axis: F = |w x axis|^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
@@ -320,6 +321,14 @@ Equations<Number> equations(const Quadric& q, const ExactLine<Number>& line) {
            dot(d, curved(q, d))}};
 }
 
+// A rounded box has the equations of its flat faces, as a box, and then others (rounded_box.hpp).
+template <class Number>
+Equations<Number> equations(const RoundedBox& b, const ExactLine<Number>& line) {
+  Equations<Number> result = equations(Box{.corner_a = b.corner_a, .corner_b = b.corner_b}, line);
+  append_rounding(b, line, result);
+  return result;
+}
+
 template <class Number>
 Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>& line) {
   return std::visit([&](const auto& p) { return equations(p, line); }, primitive);
@@ -402,6 +411,7 @@ bool is_inside(const Primitive& solid, const Signs& signs) {
   if (const auto* field = std::get_if<HeightField>(&solid)) {
     return is_in_field(CornerField(*field), signs);
   }
+  if (std::holds_alternative<RoundedBox>(solid)) return is_inside_rounded_box(signs);
   return std::all_of(signs.begin(), signs.end(), negative);
 }
 

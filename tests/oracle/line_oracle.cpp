@@ -131,6 +131,12 @@ double gradient(const Quadric& quadric, std::size_t, const ExactLine<Number>& li
   return 2 * glm::length(rounded(slope_at(quadric, p)));
 }
 
+template <class Number>
+double gradient(const RoundedBox& b, std::size_t which, const ExactLine<Number>&, const Number&) {
+  if (which < flat_equations) return 1;
+  return which < 2 * flat_equations ? infinity : 2 * b.radius;
+}
+
 /// Returns where a line meets a surface's plane, relative to its position, times `w` (so that it is
 /// exact).
 template <class Number>

@@ -300,6 +300,8 @@ std::string description(const TestRay& ray) {
       return fmt::format("sphere {} {:a}", text(p.center), p.radius);
     else if constexpr (std::is_same_v<P, Box>)
       return fmt::format("box {} {}", text(p.corner_a), text(p.corner_b));
+    else if constexpr (std::is_same_v<P, RoundedBox>)
+      return fmt::format("rounded box {} {} {:a}", text(p.corner_a), text(p.corner_b), p.radius);
     else if constexpr (std::is_same_v<P, Plane>)
       return fmt::format("plane {} {}", text(p.normal), text(p.position));
     else if constexpr (std::is_same_v<P, HalfPlane>)

@@ -29,6 +29,10 @@ Primitive scaled(Primitive primitive, double factor) {
         } else if constexpr (std::is_same_v<P, Box> || std::is_same_v<P, HeightField>) {
           p.corner_a *= factor;
           p.corner_b *= factor;
+        } else if constexpr (std::is_same_v<P, RoundedBox>) {
+          p.corner_a *= factor;
+          p.corner_b *= factor;
+          p.radius *= factor;
         } else if constexpr (std::is_same_v<P, Plane> || std::is_same_v<P, HalfPlane>) {
           p.position *= factor;
         } else if constexpr (std::is_same_v<P, Cylinder> || std::is_same_v<P, Capsule> ||

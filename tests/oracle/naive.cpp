@@ -11,6 +11,7 @@
 
 #include "geometry/height_fields.hpp"
 #include "oracle/number_vec.hpp"
+#include "oracle/rounded_box.hpp"
 #include "oracle/without_oracle.hpp"
 
 namespace crt::test {
@@ -205,6 +206,38 @@ bool meet(const Capsule& c, const Vec3& o, const Vec3& d, core::CrossingList& ou
   meet(Cylinder{.from = c.from, .to = c.to, .radius = c.radius}, o, d, all);
   meet(Sphere{.center = c.from, .radius = c.radius}, o, d, all);
   meet(Sphere{.center = c.to, .radius = c.radius}, o, d, all);
+  Span span{.enter = infinity, .leave = -infinity};
+  for (const core::Crossing& crossing : all) {
+    span.enter = std::min(span.enter, crossing.t);
+    span.leave = std::max(span.leave, crossing.t);
+  }
+  return emit(span, out);
+}
+
+/// Unites the spans of three boxes, of cylinders along the edges and of spheres at the corners.
+bool meet(const RoundedBox& b, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  core::CrossingList all;
+  const Vec3 lower = glm::min(b.corner_a, b.corner_b) + b.radius;
+  const Vec3 upper = glm::max(b.corner_a, b.corner_b) - b.radius;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 wider(0);
+    wider[axis] = b.radius;
+    meet(Box{.corner_a = lower - wider, .corner_b = upper + wider}, o, d, all);
+  }
+  for (const RoundedPlaces& places : round_places()) {
+    Vec3 from;
+    Vec3 to;
+    for (int i = 0; i < 3; ++i) {
+      const int place = places[static_cast<std::size_t>(i)];
+      from[i] = place > 0 ? upper[i] : lower[i];
+      to[i] = place < 0 ? lower[i] : upper[i];
+    }
+    if (from == to) {
+      meet(Sphere{.center = from, .radius = b.radius}, o, d, all);
+    } else {
+      meet_frustum(from, to, b.radius, b.radius, o, d, all);
+    }
+  }
   Span span{.enter = infinity, .leave = -infinity};
   for (const core::Crossing& crossing : all) {
     span.enter = std::min(span.enter, crossing.t);

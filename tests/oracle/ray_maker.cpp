@@ -196,8 +196,10 @@ std::string_view name_of(RayKind kind) {
 
 std::string_view name_of_primitive(std::size_t kind) {
   constexpr std::array<std::string_view, primitive_kinds> names = {
-      "sphere",   "box",     "plane", "half plane", "cylinder",   "cone",         "torus",  "disc",
-      "triangle", "capsule", "mesh",  "extrusion",  "revolution", "height field", "quadric"};
+      "sphere",     "box",          "plane",    "half plane", "cylinder", "cone",
+      "torus",      "disc",         "triangle", "capsule",    "mesh",     "extrusion",
+      "revolution", "height field", "quadric",  "rounded box"};
+  static_assert(!names.back().empty());
   return names[kind];
 }
 

@@ -41,7 +41,7 @@ Primitive grid_leaf(Counted& random) {
   const Vec3 axis = random_axis(random);
   const double size = random.integer(1, 2);
   const double other = random.integer(1, 2);
-  switch (random.integer(0, 10)) {
+  switch (random.integer(0, 11)) {
     case 0:
       return Sphere{.center = at, .radius = size};
     case 1:
@@ -59,6 +59,10 @@ Primitive grid_leaf(Counted& random) {
       return Capsule{.from = at, .to = at + other * axis, .radius = size};
     case 6:
       return grid_quadric(random, at, axis, size);
+    case 7:
+      return RoundedBox{.corner_a = at,
+                        .corner_b = at + Vec3(size, other, random.integer(1, 3)),
+                        .radius = random.integer(1, 2) / 4.0};
     default:
       return Box{.corner_a = at, .corner_b = at + Vec3(size, other, random.integer(1, 3))};
   }
@@ -156,10 +160,11 @@ Equations<Number> equations_along(const GridRay& ray, const SolidTree& leaf) {
 }
 
 /// Says whether an equation is of a face. A torus has another one, and so have the caps within a
-/// capsule; and an apex has a plane.
+/// capsule; and an apex has a plane. Of a rounded box only the flat faces count.
 bool is_of_face(const Primitive& primitive, std::size_t equation) {
   if (std::holds_alternative<Torus>(primitive)) return equation == 0;
   if (std::holds_alternative<Capsule>(primitive)) return equation == 0 || equation > 2;
+  if (std::holds_alternative<RoundedBox>(primitive)) return equation < flat_equations;
   const Cone* cone = std::get_if<Cone>(&primitive);
   return cone == nullptr || equation < 2 || cone->radius2 > 0;
 }

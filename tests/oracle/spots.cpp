@@ -8,6 +8,7 @@
 
 #include "oracle/number_vec.hpp"
 #include "oracle/quadric_spots.hpp"
+#include "oracle/rounded_spots.hpp"
 namespace crt::test {
 
 Frame across(const Vec3& v) {

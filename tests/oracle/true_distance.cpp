@@ -171,6 +171,19 @@ double outside(const Quadric& q, const IntervalVec& p) {
   return sum == 0 ? 0 : 2 * sum / most;
 }
 
+double outside(const RoundedBox& b, const IntervalVec& p) {
+  const IntervalVec lower = p - exactly<Interval>(glm::min(b.corner_a, b.corner_b));
+  const IntervalVec upper = p - exactly<Interval>(glm::max(b.corner_a, b.corner_b));
+  RoundedPlaces places{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((lower[i] - Interval(b.radius)).value() < 0) places[i] = -1;
+    if ((upper[i] + Interval(b.radius)).value() > 0) places[i] = 1;
+  }
+  if (std::count(places.begin(), places.end(), 0) > 1)
+    return outside(Box{.corner_a = b.corner_a, .corner_b = b.corner_b}, p);
+  return (length(beyond_inner_box(b, places, lower, upper)) - Interval(b.radius)).value();
+}
+
 Vec3 middle(const Vec3& a, const Vec3& b) {
   return a / 2.0 + b / 2.0;
 }
@@ -184,6 +197,10 @@ Ball ball_of(const Sphere& s) {
 }
 Ball ball_of(const Box& b) {
   return {middle(b.corner_a, b.corner_b), glm::length(b.corner_a - b.corner_b) / 2};
+}
+Ball ball_of(const RoundedBox& b) {
+  const Vec3 inner = glm::abs(b.corner_a - b.corner_b) / 2.0 - b.radius;
+  return {middle(b.corner_a, b.corner_b), glm::length(inner) + b.radius};
 }
 Ball ball_of(const Plane& p) {
   return {p.position, 0};

@@ -23,6 +23,8 @@ class Primitives(unittest.TestCase):
             (crt.Empty(), []),
             (crt.Sphere((1, 0, 0), 1), [x, x + 2]),
             (crt.Box((1, 1, 1), (-1, -1, -1)), [x - 1, x + 1]),
+            (crt.RoundedBox((1, 1, 1), (-1, -1, -1), 0.5), [x - 1, x + 1]),
+            (crt.RoundedBox((1, 0, 1), (-1, -4, -1), 1), []),
             (crt.Plane((-1, 0, 0), (2, 0, 0)), [x + 2]),
             (crt.HalfPlane((1, 0, 0), (2, -1, 0), (0, 1, 0)), [x + 2]),
             (crt.HalfPlane((1, 0, 0), (2, 1, 0), (0, 1, 0)), []),

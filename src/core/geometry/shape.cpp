@@ -21,6 +21,7 @@
 #include "core/geometry/plane/plane.hpp"
 #include "core/geometry/quadric/quadric.hpp"
 #include "core/geometry/revolution/revolution.hpp"
+#include "core/geometry/rounded_box/rounded_box.hpp"
 #include "core/geometry/sphere/sphere.hpp"
 #include "core/geometry/torus/torus.hpp"
 #include "core/geometry/triangle/triangle.hpp"

@@ -14,6 +14,7 @@ enum class SurfaceKind : std::uint8_t {
   cone,
   torus,
   quadric,
+  rounding,
   field,
   custom
 };
@@ -30,7 +31,8 @@ struct Surface {
   Vec3 direction{0, 0, 0};
   /// These are radii, thickness, or slope, or what tells fields and custom shapes apart. A quadric,
   /// whose position is the origin, has all its numbers but the squares here. The squares are in
-  /// place of the direction.
+  /// place of the direction. A rounding, which is a round face of a rounded box, has its radius and
+  /// the number of the face here. Its position and direction are the box's lower corner and size.
   std::array<double, 8> sizes{};
   /// The face's normal points into what the round surface encloses. A plane has its `direction`.
   bool is_hollow = false;

@@ -180,6 +180,11 @@ void BoxShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std:
   point.v = plane.axis() == 1 ? share.z : share.y;
 }
 
+template void BoxShape::write_point<double>(const Vec3&, const Vec3&, std::uint32_t, bool,
+                                            SurfacePoint&) const;
+template void BoxShape::write_point<Lanes>(const VectorLanes&, const VectorLanes&, std::uint32_t,
+                                           bool, SurfacePointLanes&) const;
+
 std::unique_ptr<const Shape> make_shape(const Box& box) {
   return std::make_unique<BoxShape>(box);
 }
