@@ -48,9 +48,8 @@ class ObjectTests {
   /// Tests some rays against an object. Returns the rays whose limits it changed.
   RayMask test(const BoundingProxy& proxy, RayMask rays) {
     changed_ = 0;
-    if constexpr (Asked::passes_some) {
-      if (asked_.passes(proxy)) return 0;
-    }
+    if ((proxy.passed_by & asked_.kind) != 0) [[unlikely]]
+      return 0;
     step(rays);
     rays &= ~filter_.left(proxy);
     if (rays == 0) return 0;
@@ -71,9 +70,8 @@ class ObjectTests {
 
   /// Lets an object that rays surely meet bound what else matters to them.
   void limit_by(const BoundingProxy& proxy) {
-    if constexpr (Asked::passes_some) {
-      if (asked_.passes(proxy)) return;
-    }
+    if ((proxy.passed_by & asked_.kind) != 0) [[unlikely]]
+      return;
     step(going_);
     const RayMask rays = going_ & ~filter_.left(proxy);
     typename FilterRays<Real>::Parts parts;
