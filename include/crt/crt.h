@@ -293,8 +293,9 @@ typedef enum crt_light_type {
   CRT_LIGHT_CYLINDER,  /**< parallel rays that fill a cylinder from `origin` towards `pointing` */
   CRT_LIGHT_SPHERE, /**< a sphere about `origin` that shines outwards. Since 1.1, as what follows */
   CRT_LIGHT_DISC,   /**< a disc about `origin` that shines towards `pointing` */
-  CRT_LIGHT_RECTANGLE /**< a parallelogram from `origin` along `edge_a` and `edge_b`; it shines
-                         along the cross product of these */
+  CRT_LIGHT_RECTANGLE,  /**< a parallelogram from `origin` along `edge_a` and `edge_b`; it shines
+                          along the cross product of these */
+  CRT_LIGHT_ENVIRONMENT /**< the background, from all directions */
 } crt_light_type;
 
 /** Describes a light. */
@@ -404,6 +405,12 @@ typedef enum crt_ambient_model {
   CRT_AMBIENT_SURFACE    /**< that times its colour and its opacity: what is black stays black */
 } crt_ambient_model;
 
+/** Lists what is seen along rays that recursion_depth ends. Since 1.1. */
+typedef enum crt_cutoff {
+  CRT_CUTOFF_BLACK = 0,
+  CRT_CUTOFF_BACKGROUND /**< the background in their direction */
+} crt_cutoff;
+
 /** Says how light that is too bright for a display is brought into its range. Since 1.1. */
 typedef enum crt_tone_map {
   CRT_TONE_MAP_NONE = 0, /**< it is clipped */
@@ -465,8 +472,10 @@ typedef struct crt_settings {
   /** Each ray takes so many samples of what lights a point and has a size, in [1, 1024]. Default 1.
    * Since 1.1. */
   int32_t light_samples;
-  int32_t tone_map;   /**< a crt_tone_map; default CRT_TONE_MAP_NONE. Since 1.1. */
-  int32_t reserved_4; /**< must be 0 */
+  int32_t tone_map; /**< a crt_tone_map; default CRT_TONE_MAP_NONE. Since 1.1. */
+  /** This is a crt_cutoff: what is seen along rays that recursion_depth ends; default
+   * CRT_CUTOFF_BACKGROUND. Since 1.1. */
+  int32_t cutoff;
   /** 8-bit files are brighter by so many stops: light counts 2^exposure times, before the tone map
    * and gamma. Float files hold light as it is. In [-100, 100]; default 0. Since 1.1. */
   double exposure;

@@ -94,8 +94,14 @@ struct RectangleLight {
   bool two_sided = false;  ///< it shines to both sides
 };
 
+/// An EnvironmentLight is the background, which without it is merely seen. It shines from all
+/// directions, times `scale`; what it shows is not scaled.
+struct EnvironmentLight {
+  double scale = 1;
+};
+
 /// A Light is any of the lights.
 using Light = std::variant<PointLight, ParallelLight, SpotLight, CylinderLight, SphereLight,
-                           DiscLight, RectangleLight>;
+                           DiscLight, RectangleLight, EnvironmentLight>;
 
 }  // namespace crt

@@ -136,6 +136,12 @@ inline constexpr auto table<RectangleLight> = Table{
 };
 
 template <>
+inline constexpr auto table<EnvironmentLight> = Table{
+    "EnvironmentLight",
+    field("scale", &EnvironmentLight::scale, factor, {}, "factor of the background's light"),
+};
+
+template <>
 inline constexpr auto table<Camera> = Table{
     "Camera",
     field("position", &Camera::position, point, required, "where it stands"),

@@ -11,6 +11,9 @@ template <>
 inline constexpr auto choices<PixelFilter> = choice("PixelFilter", "crt_pixel_filter", "CRT_FILTER",
                                                     "box", "blackman_harris");
 template <>
+inline constexpr auto choices<Cutoff> = choice("Cutoff", "crt_cutoff", "CRT_CUTOFF", "black",
+                                               "background");
+template <>
 inline constexpr auto choices<FalloffModel> = choice("FalloffModel", "crt_falloff_model",
                                                      "CRT_FALLOFF", "path", "light");
 template <>
@@ -82,6 +85,8 @@ inline constexpr auto table<Settings> = Table{
     field("clamp", &Settings::clamp, factor,
           {.option = "above 0: the most that bounced light may show"},
           "above 0: the most that light by bounces may show; ends all claims of accuracy"),
+    field("cutoff", &Settings::cutoff, any, {.option = "what ended rays see: black or background"},
+          "`\"black\"` or `\"background\"`: what rays see that end there"),
     field("falloff_model", &Settings::falloff_model, any,
           {.option = "distance that dims a light: path or light"},
           "`\"path\"` or `\"light\"`, see below"),

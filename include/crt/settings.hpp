@@ -23,6 +23,12 @@ enum class ToneMap {
   filmic,  ///< by a curve as that of film: highlights fade out, middle grey stays (docs/image.md)
 };
 
+/// Says what is seen along rays that are not followed any more, as recursion_depth ends them.
+enum class Cutoff {
+  black,       ///< nothing (as in the thesis)
+  background,  ///< the background in their direction
+};
+
 /// Says how close calls of the geometry are decided: see docs/numerics.md. Both values answer the
 /// same question.
 enum class Precision {
@@ -91,6 +97,7 @@ struct Settings {
   /// Above 0, light that comes by bounces counts as this bright at most. So there are no fireflies,
   /// and nothing is claimed of a picture's accuracy.
   double clamp = 0;
+  Cutoff cutoff = Cutoff::background;
   FalloffModel falloff_model = FalloffModel::light;
   AmbientModel ambient_model = AmbientModel::surface;
   /// A scene without lights is lit from the camera, so that it shows something. With false it is
@@ -108,10 +115,11 @@ struct Settings {
 };
 
 /// Returns the settings that a script with `compat -> 2015` begins with. Files store light as it is
-/// (gamma 1), and lights fall off and are ambient by the thesis's rules.
+/// (gamma 1), lights fall off and are ambient by the thesis's rules, and rays end in black.
 inline Settings settings_of_2015() {
   Settings settings;
   settings.gamma = 1;
+  settings.cutoff = Cutoff::black;
   settings.falloff_model = FalloffModel::path;
   settings.ambient_model = AmbientModel::light;
   settings.compat = compat_2015;

@@ -199,7 +199,11 @@ FIELDS = {
             "1024]. Default 1. Since 1.1.",
         ),
         ("int32_t tone_map", "a ToneMap; default ToneMap.NONE. Since 1.1."),
-        ("int32_t reserved_4", "must be 0"),
+        (
+            "int32_t cutoff",
+            "This is a Cutoff: what is seen along rays that recursion_depth ends; default "
+            "Cutoff.BACKGROUND. Since 1.1.",
+        ),
         (
             "double exposure",
             "8-bit files are brighter by so many stops: light counts 2^exposure times, before "

@@ -133,12 +133,14 @@ class LightType(enum.IntEnum):
     SPHERE = 4
     DISC = 5
     RECTANGLE = 6
+    ENVIRONMENT = 7
 
 
 @growable("crt_light", type=LightType)
 class Light(Struct):
     """A Light is made by Light.point(origin=...), Light.parallel(origin=..., pointing=...),
-    Light.spot(), Light.cylinder(), Light.sphere(), Light.disc() or Light.rectangle()."""
+    Light.spot(), Light.cylinder(), Light.sphere(), Light.disc(), Light.rectangle() or
+    Light.environment()."""
 
     @classmethod
     def point(cls, **fields: Any) -> "Light":
@@ -176,6 +178,11 @@ class Light(Struct):
         """Shines from the parallelogram from `origin` along `edge_a` and `edge_b`, to the side of
         their cross product."""
         return cls.of_type(LightType.RECTANGLE, **fields)
+
+    @classmethod
+    def environment(cls, **fields: Any) -> "Light":
+        """Makes the background a light, times `scale`."""
+        return cls.of_type(LightType.ENVIRONMENT, **fields)
 
 
 class Projection(enum.IntEnum):

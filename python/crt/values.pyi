@@ -360,7 +360,9 @@ class Material(_Struct):
         bump_height: SupportsFloat = ...,
     ) -> None: ...
 
-LightTypeName = Literal["point", "parallel", "spot", "cylinder", "sphere", "disc", "rectangle"]
+LightTypeName = Literal[
+    "point", "parallel", "spot", "cylinder", "sphere", "disc", "rectangle", "environment"
+]
 
 class LightType(enum.IntEnum):
     """Lists the kinds of lights. All cast shadows."""
@@ -371,10 +373,12 @@ class LightType(enum.IntEnum):
     SPHERE = 4
     DISC = 5
     RECTANGLE = 6
+    ENVIRONMENT = 7
 
 class Light(_Struct):
     """A Light is made by Light.point(origin=...), Light.parallel(origin=..., pointing=...),
-    Light.spot(), Light.cylinder(), Light.sphere(), Light.disc() or Light.rectangle().
+    Light.spot(), Light.cylinder(), Light.sphere(), Light.disc(), Light.rectangle() or
+    Light.environment().
 
     Its fields are:
     - type (LightType, or its name): a LightType; default LightType.POINT
@@ -585,6 +589,25 @@ class Light(_Struct):
         """Shines from the parallelogram from `origin` along `edge_a` and `edge_b`, to the side of
         their cross product.
         """
+    @classmethod
+    def environment(
+        cls,
+        *,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
+        edge_a: GivenVector = ...,
+        edge_b: GivenVector = ...,
+        visible: SupportsIndex = ...,
+        two_sided: SupportsIndex = ...,
+        scale: SupportsFloat = ...,
+    ) -> Light:
+        """Makes the background a light, times `scale`."""
 
 ProjectionName = Literal["pinhole", "spherical", "cylindrical", "orthographic"]
 
@@ -832,6 +855,8 @@ class Settings(_Struct):
     - light_samples (int): Each ray takes so many samples of what lights a point and has a size, in
       [1, 1024]. Default 1. Since 1.1.
     - tone_map (ToneMap, or its name): a ToneMap; default ToneMap.NONE. Since 1.1.
+    - cutoff (int): This is a Cutoff: what is seen along rays that recursion_depth ends; default
+      Cutoff.BACKGROUND. Since 1.1.
     - exposure (float): 8-bit files are brighter by so many stops: light counts 2^exposure times,
       before the tone map and gamma. Float files hold light as it is. In [-100, 100]; default 0.
       Since 1.1.
@@ -865,6 +890,7 @@ class Settings(_Struct):
     indirect: int
     light_samples: int
     tone_map: ToneMap | int | ToneMapName
+    cutoff: int
     exposure: float
     clamp: float
     def __init__(
@@ -897,6 +923,7 @@ class Settings(_Struct):
         indirect: SupportsIndex = ...,
         light_samples: SupportsIndex = ...,
         tone_map: ToneMap | int | ToneMapName = ...,
+        cutoff: SupportsIndex = ...,
         exposure: SupportsFloat = ...,
         clamp: SupportsFloat = ...,
     ) -> None: ...
@@ -930,6 +957,7 @@ class Settings(_Struct):
         indirect: SupportsIndex = ...,
         light_samples: SupportsIndex = ...,
         tone_map: ToneMap | int | ToneMapName = ...,
+        cutoff: SupportsIndex = ...,
         exposure: SupportsFloat = ...,
         clamp: SupportsFloat = ...,
     ) -> None: ...

@@ -134,7 +134,7 @@ std::span<const CField> c_fields<crt_settings>() {
       CRT_FIELD(S, filter),       CRT_FIELD(S, reserved_2),      CRT_FIELD(S, compat),
       CRT_FIELD(S, reserved_3),   CRT_FIELD(S, ambient_model),   CRT_FIELD(S, no_head_light),
       CRT_FIELD(S, indirect),     CRT_FIELD(S, light_samples),   CRT_FIELD(S, tone_map),
-      CRT_FIELD(S, reserved_4),   CRT_FIELD(S, exposure),        CRT_FIELD(S, clamp)};
+      CRT_FIELD(S, cutoff),       CRT_FIELD(S, exposure),        CRT_FIELD(S, clamp)};
   return fields;
 }
 

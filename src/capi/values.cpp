@@ -54,7 +54,7 @@ Material to_material(const crt_material* material) {
 // ---- lights -------------------------------------------------------------------------------------
 
 // The types of C are the kinds of C++ in their order.
-static_assert(CRT_LIGHT_RECTANGLE + 1 == std::variant_size_v<Light>);
+static_assert(CRT_LIGHT_ENVIRONMENT + 1 == std::variant_size_v<Light>);
 
 namespace {
 
@@ -71,7 +71,6 @@ crt_light to_c(const Light& light) {
   put_defaults<Light>(out);
   out.type = static_cast<std::int32_t>(light.index());
   std::visit([&out](const auto& kind) { put_fields(out, kind); }, light);
-  out.scale = 1;
   if (const auto* disc = std::get_if<DiscLight>(&light)) {
     const Vec3 faced = disc->center + disc->normal;
     for (int axis = 0; axis < 3; ++axis) out.pointing[axis] = faced[axis];

@@ -165,7 +165,7 @@ AT(crt_settings, no_head_light, 148);
 AT(crt_settings, indirect, 152);
 AT(crt_settings, light_samples, 156);
 AT(crt_settings, tone_map, 160);
-AT(crt_settings, reserved_4, 164);
+AT(crt_settings, cutoff, 164);
 AT(crt_settings, exposure, 168);
 AT(crt_settings, clamp, 176);
 

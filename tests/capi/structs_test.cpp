@@ -205,7 +205,7 @@ TEST_CASE("what a scene was given it gives back") {
   const SceneHandle scene = new_scene();
   for (const std::int32_t type :
        {CRT_LIGHT_POINT, CRT_LIGHT_PARALLEL, CRT_LIGHT_SPOT, CRT_LIGHT_CYLINDER, CRT_LIGHT_SPHERE,
-        CRT_LIGHT_DISC, CRT_LIGHT_RECTANGLE}) {
+        CRT_LIGHT_DISC, CRT_LIGHT_RECTANGLE, CRT_LIGHT_ENVIRONMENT}) {
     crt_light light;
     REQUIRE(crt_light_init_type(&light, sizeof light, type) == CRT_OK);
     CHECK(light.type == type);

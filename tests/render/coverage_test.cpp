@@ -171,6 +171,13 @@ TEST_CASE("what cutting off paths took from a picture is within what it says") {
   double last = 1;
   for (const int depth : {0, 1, 2, 3, 5, 8}) {
     scene.settings.recursion_depth = depth;
+    scene.settings.cutoff = Cutoff::background;
+    const Image with_background = render(prepare(scene));
+    for (int i = 0; i < 24 * 24; ++i) {
+      CHECK(std::abs(with_background.at(i % 24, i / 24).b - deep.at(i % 24, i / 24).b) <=
+            with_background.stats().cutoff_max + 1e-6);
+    }
+    scene.settings.cutoff = Cutoff::black;
     const Image image = render(prepare(scene));
     double most = 0;
     double sum = 0;

@@ -7,12 +7,14 @@
 
 namespace crt::test {
 
-/// Makes the scene that every other here starts from: black all around, no light from the camera,
-/// no limit on weights, and ambient light that surfaces of all colours send back alike.
+/// Makes the scene that every other here starts from: black all around and where rays end, no light
+/// from the camera, no limit on weights, and ambient light that surfaces of all colours send back
+/// alike.
 inline Scene dark_scene() {
   Scene scene;
   scene.background = SolidBackground{{0, 0, 0}};
   scene.settings.min_weight = 0;
+  scene.settings.cutoff = Cutoff::black;
   scene.settings.head_light = false;
   scene.settings.ambient_model = AmbientModel::light;
   return scene;

@@ -46,8 +46,9 @@ Rgb direct_light(const PhongSurface& surface, const LightSample& light, const Rg
   samples.directions.set(lane, light.direction);
   samples.distances[lane] = light.distance;
   samples.intensities[lane] = light.intensity;
+  samples.colors = lanes_of(light_color);
   VectorLanes seen;
-  direct_light(surfaces, samples, light_color, samples.intensities > 0.0, seen);
+  direct_light(surfaces, samples, samples.intensities > 0.0, seen);
   return seen.lane(lane);
 }
 

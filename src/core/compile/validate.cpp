@@ -230,6 +230,8 @@ void validate(const Settings& settings) {
     reject("max_samples", text::format("must not be less than min_samples ({}), but is {}",
                                        settings.min_samples, settings.max_samples));
   }
+  if (settings.clamp > 0 && settings.target_error > 0)
+    reject("clamp", "must be 0 with a target_error: of clamped light no accuracy can be claimed");
   if (settings.compat != 0 && settings.compat != compat_2015) {
     reject("compat", text::format("must be 0 or {} (it is {})", compat_2015, settings.compat));
   }

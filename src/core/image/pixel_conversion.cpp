@@ -47,29 +47,19 @@ LaneMask clips(const Lanes& values) {
 
 constexpr std::array<std::uint8_t, 4> clip_mark = {255, 0, 0, 255};
 
-}  // namespace
-
-double displayed(double light, const Settings& settings) {
-  const double level = clamped(ToneCurve(settings)(light));
-  return settings.gamma == 1 ? level : power(level, 1 / settings.gamma);
-}
-
-std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode) {
+/// Returns the bytes of display_bytes(). `tone` brings light to what is shown, but for gamma.
+template <class Tone>
+std::vector<std::uint8_t> toned_bytes(const Image& image, AlphaMode mode, const Tone& tone) {
   const double exponent = image.display_encoded() ? 1.0 : 1 / image.settings().gamma;
-  const ToneCurve tone = image.display_encoded() ? ToneCurve() : ToneCurve(image.settings());
   const bool show_clip = image.settings().show_clip;
   const Levels levels_of(image.settings().compat);
   const std::span<const float> pixels = image.pixels();
   std::vector<std::uint8_t> bytes(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
     const double alpha = clamped(double{pixels[i + 3]});
-    Lanes covered = lanes_of(pixels[i], pixels[i + 1], pixels[i + 2], 0);
-    Lanes whole = alpha > 0 ? covered / alpha : Lanes{};
-    if (!tone.is_identity()) {
-      covered = tone(covered);
-      whole = tone(whole);
-    }
-    Lanes levels = clamped(mode == AlphaMode::straight ? whole : covered);
+    const Lanes covered = lanes_of(pixels[i], pixels[i + 1], pixels[i + 2], 0);
+    const Lanes whole = tone(alpha > 0 ? covered / alpha : Lanes{});
+    Lanes levels = clamped(mode == AlphaMode::straight ? whole : tone(covered));
     if (exponent != 1) levels = power(levels, lanes_of(exponent));
     levels[3] = alpha;
     levels = levels_of(levels);
@@ -80,6 +70,19 @@ std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode) {
       std::copy(clip_mark.begin(), clip_mark.end(), bytes.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return bytes;
+}
+
+}  // namespace
+
+double displayed(double light, const Settings& settings) {
+  const double level = clamped(ToneCurve(settings)(light));
+  return settings.gamma == 1 ? level : power(level, 1 / settings.gamma);
+}
+
+std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode) {
+  const ToneCurve tone(image.settings());
+  if (!image.display_encoded() && !tone.is_identity()) return toned_bytes(image, mode, tone);
+  return toned_bytes(image, mode, [](const Lanes& light) { return light; });
 }
 
 std::vector<float> linear_floats(const Image& image) {

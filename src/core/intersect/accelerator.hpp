@@ -143,10 +143,6 @@ class Accelerator {
   template <class Real>
   void find_nearest(const Rays<Real>& rays, RayMask some, std::span<RayHit> hits,
                     RayWorkspace& work, PassingRays kind) const;
-  /// Follows rays of a kind. It looks for objects that they pass only where there are any.
-  template <class Real, class Asked>
-  RayMask follow_kind(const Rays<Real>& rays, const Starts<Real>& starts, RayMask some,
-                      const Asked& asked, PassingRays kind, RayWorkspace& work) const;
   PacketStartsOf<1> noted_starts(const WorldRay& ray, RayMask = 1) const;
 
   /// Returns whether there are so few boxes that all of them are looked at.

@@ -163,17 +163,10 @@ PacketStarts Accelerator::noted_starts(const RayBatch& rays, RayMask some) const
   return starts;
 }
 
-template <class Real, class Asked>
-RayMask Accelerator::follow_kind(const Rays<Real>& rays, const Starts<Real>& starts, RayMask some,
-                                 const Asked& asked, PassingRays kind, RayWorkspace& work) const {
-  if ((kind & kinds_that_pass_) == 0) return follow<Real>(rays, starts, some, asked, work);
-  return follow<Real>(rays, starts, some, PassingSome<Asked>(asked, kind), work);
-}
-
 template <class Real>
 void Accelerator::find_nearest(const Rays<Real>& rays, RayMask some, std::span<RayHit> hits,
                                RayWorkspace& work, PassingRays kind) const {
-  follow_kind<Real>(rays, noted_starts(rays, some), some, AskNearest{hits}, kind, work);
+  follow<Real>(rays, noted_starts(rays, some), some, AskNearest{hits, kind}, work);
   for_each_ray(some, [&](std::size_t i) {
     if (hits[i].has_coincident) hits[i] = gather_coincident(rays.ray(i), hits[i], kind, work);
   });
@@ -215,7 +208,7 @@ RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work, PassingRays
 }
 
 bool Accelerator::any(const WorldRay& ray, RayWorkspace& work, PassingRays kind) const {
-  return follow_kind<double>(ray, noted_starts(ray), 1, AskAny{}, kind, work) == 0;
+  return follow<double>(ray, noted_starts(ray), 1, AskAny{kind}, work) == 0;
 }
 
 void Accelerator::all(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
@@ -283,7 +276,7 @@ void Accelerator::nearest_each(const RayBatch& rays, RayMask some,
 RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
                               Packets packets, RayWorkspace& work, PassingRays kind) const {
   if (pay_together(rays, some, packets))
-    return some & ~follow_kind<Lanes>(rays, starts, some, AskAny{}, kind, work);
+    return some & ~follow<Lanes>(rays, starts, some, AskAny{kind}, work);
   RayMask found = 0;
   for_each_ray(some, [&](std::size_t i) { found |= mask_of(any(rays.ray(i), work, kind)) << i; });
   return found;
@@ -296,13 +289,13 @@ LightPaths Accelerator::paths_to_light(const RayBatch& rays, const PacketStarts&
   const std::span found(work.on_paths);
   RayMask reaching = 0;
   if (pay_together(rays, some, packets)) {
-    const AskLight asked{{}, opacity, found};
-    reaching = follow_kind<Lanes>(rays, starts, some, asked, passing_shadow, work);
+    const AskLight asked{{passing_shadow}, opacity, found};
+    reaching = follow<Lanes>(rays, starts, some, asked, work);
   } else {
     for_each_ray(some, [&](std::size_t i) {
       const WorldRay ray = rays.ray(i);
-      const AskLight asked{{}, opacity, found.subspan(i, 1)};
-      reaching |= follow_kind<double>(ray, noted_starts(ray), 1, asked, passing_shadow, work) << i;
+      const AskLight asked{{passing_shadow}, opacity, found.subspan(i, 1)};
+      reaching |= follow<double>(ray, noted_starts(ray), 1, asked, work) << i;
     });
   }
   LightPaths paths{.blocked = some & ~reaching};

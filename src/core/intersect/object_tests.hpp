@@ -48,9 +48,8 @@ class ObjectTests {
   /// Tests some rays against an object. Returns the rays whose limits it changed.
   RayMask test(const BoundingProxy& proxy, RayMask rays) {
     changed_ = 0;
-    if constexpr (Asked::passes_some) {
-      if (asked_.passes(proxy)) return 0;
-    }
+    if ((proxy.passed_by & asked_.kind) != 0) [[unlikely]]
+      return 0;
     step(rays);
     rays &= ~filter_.left(proxy);
     if (rays == 0) return 0;
@@ -72,11 +71,18 @@ class ObjectTests {
 
   /// Lets an object that rays surely meet bound what else matters to them.
   void limit_by(const BoundingProxy& proxy) {
+<<<<<<< HEAD
     if constexpr (Asked::passes_some) {
       if (asked_.passes(proxy)) return;
     }
     step(active_);
     const RayMask rays = active_ & ~filter_.left(proxy);
+=======
+    if ((proxy.passed_by & asked_.kind) != 0) [[unlikely]]
+      return;
+    step(going_);
+    const RayMask rays = going_ & ~filter_.left(proxy);
+>>>>>>> tone
     typename FilterRays<Real>::Parts parts;
     const RayMask accepted =
         filter_.decide(proxy, rays, filter_.starts_on(proxy, rays), true, parts).accepted;

@@ -120,24 +120,13 @@ class Located final : public ObjectQuery<Located> {
   }
 };
 
-/// A PassingSome asks the same of rays of a kind that may pass objects as if they were not there.
-template <class Asked>
-struct PassingSome : Asked {
-  static constexpr bool passes_some = true;
-
-  PassingRays kind;
-
-  PassingSome(const Asked& asked, PassingRays kind_of_rays) : Asked(asked), kind(kind_of_rays) {}
-  bool passes(const BoundingProxy& proxy) const { return (proxy.passed_by & kind) != 0; }
-};
-
 /// Asks of each ray the nearest crossing, by the ray's number in the packet.
 struct AskNearest {
   static constexpr bool any_will_do = false;
-  static constexpr bool passes_some = false;
   static constexpr bool gathers = false;
 
   std::span<RayHit> hits;
+  PassingRays kind = passing_none;  ///< objects that these pass are not there
 
   Nearest query(const Accelerator& accelerator, const WorldRay& ray, std::size_t number,
                 RayWorkspace& work) const {
@@ -148,8 +137,9 @@ struct AskNearest {
 /// Asks of each ray whether there is any crossing.
 struct AskAny {
   static constexpr bool any_will_do = true;
-  static constexpr bool passes_some = false;
   static constexpr bool gathers = false;
+
+  PassingRays kind = passing_none;
 
   Any query(const Accelerator& accelerator, const WorldRay& ray, std::size_t /*number*/,
             RayWorkspace& work) const {

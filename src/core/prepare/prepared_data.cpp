@@ -136,6 +136,11 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   opacity_ = opacity_of(accelerator_->compiled(), materials_);
   background_ =
       std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
+  const auto is_environment = [](const Light& light) {
+    return std::holds_alternative<EnvironmentLight>(light);
+  };
+  if (std::any_of(scene.lights.begin(), scene.lights.end(), is_environment))
+    environment_ = std::make_unique<Environment>(*background_);
   textures_.settle();
   features_ = find_features(scene_, materials_, geometry_->has_csg);
   features_.unseen = (accelerator_->kinds_that_pass() & passing_camera) != 0;

@@ -20,7 +20,7 @@
 #include "core/prepare/features.hpp"
 #include "core/ray/object_ray.hpp"
 #include "core/ray/ray_packet.hpp"
-#include "core/shading/prepared_background.hpp"
+#include "core/shading/environment.hpp"
 #include "core/shading/prepared_material.hpp"
 #include "core/tasks/workers.hpp"
 #include "crt/scene.hpp"
@@ -236,6 +236,8 @@ class PreparedData {
 
   const std::vector<PreparedMaterial>& materials() const { return materials_; }
   const PreparedBackground& background() const { return *background_; }
+  /// Returns the background as a light, or null if it is none.
+  const Environment* environment() const { return environment_.get(); }
   const Features& features() const { return features_; }
   /// Returns lights, camera, background and settings as given (and checked), without entities.
   const Scene& scene() const { return scene_; }
@@ -266,6 +268,7 @@ class PreparedData {
   std::vector<PreparedMaterial> materials_;
   Opacity opacity_;
   std::unique_ptr<const PreparedBackground> background_;
+  std::unique_ptr<const Environment> environment_;
   Features features_;
   // These point into the geometry.
   const Accelerator* accelerator_ = nullptr;

@@ -107,7 +107,7 @@ RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask so
     LaneMask lit = lanes_with(lanes);
     lit &= source.sample(group.position, group.path_length, numbers.of_group(i), samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
-    direct_light(group.phong, samples, source.color(), lit, rays.light[i]);
+    direct_light(group.phong, samples, lit, rays.light[i]);
     if (group.smooth != 0) soften_terminator(group, samples.directions, rays.light[i]);
     lit &= !is_black(rays.light[i]);
     aimed |= mask_of(lit) << (i * lane_count);

@@ -34,6 +34,9 @@ class Frame {
   /// Returns whether a light is seen itself.
   bool shows_lights() const { return shows_lights_; }
 
+  /// Returns how strong the background is as a light.
+  double environment_scale() const { return environment_scale_; }
+
   /// Returns what all lights together give every point.
   const Rgb& ambient() const { return ambient_; }
 
@@ -66,6 +69,7 @@ class Frame {
   std::vector<PicturePlaceLanes> subpixels_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};
+  double environment_scale_ = 0;
   bool draws_numbers_ = false;
   bool shows_lights_ = false;
   std::vector<double> gains_behind_;  ///< by bounces; none if no surface brightens light

@@ -111,6 +111,14 @@ bool is_worth_it(TraceContext& context, const PathState& before, const Rgb& weig
   return false;
 }
 
+/// Adds what stands in for light along a ray that the recursion depth ends.
+void add_cutoff(const TraceContext& context, const Rgb& weight, const Vec3& direction,
+                Sample& sample) {
+  if (context.frame.settings().cutoff != Cutoff::background) return;
+  const Rgb light = weight * rgb(context.data.background().color(direction));
+  sample.channels += lanes_of(light.x, light.y, light.z, 0);
+}
+
 /// Takes a ray into the next round. If its sample has followed as many as it may, it and all that
 /// wait are dropped.
 [[gnu::always_inline]] inline void take(RenderStats& stats, const PathRay& ray, SampleWork& work,
@@ -145,9 +153,13 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
     Sample& sample = *rays.samples[ray];
     const bool is_within_depth = state.bounces < context.frame.settings().recursion_depth;
     const auto is_followed = [&](const Branch& branch) {
+      if ((branch.rays >> lane & 1u) == 0) return false;
+      const Rgb weight = branch.weights.lane(lane);
       const bool within = is_within_depth || &branch == &parts.diffuse;
-      return (branch.rays >> lane & 1u) != 0 &&
-             is_worth_it(context, state, branch.weights.lane(lane), within, sample);
+      if (is_worth_it(context, state, weight, within, sample)) return true;
+      if (!within && state.diffuse_bounces == 0)
+        add_cutoff(context, weight, branch.directions.lane(lane), sample);
+      return false;
     };
     // It is filled in place, which is faster than a copy.
     const auto describe = [&](PathRay& ray_on, const Branch& branch, const StartPoint& start,

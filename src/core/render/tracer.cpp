@@ -16,23 +16,46 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
   return list;
 }
 
+/// Lets light that has come by diffuse bounces count no more than the settings say.
+void clamp_bounced(const TraceContext& context, const PathRays& rays, PathLight& light) {
+  const Settings& settings = context.frame.settings();
+  if (settings.clamp <= 0 || settings.indirect == 0) return;
+  const VectorLanes most = lanes_of(Rgb(settings.clamp));
+  RayPacket::for_each_group(light.rays & rays.after_diffuse(),
+                            [&](std::size_t group, RayMask lanes) {
+                              VectorLanes& colors = light.colors[group];
+                              colors = select(lanes_with(lanes), min(colors, most), colors);
+                            });
+}
+
 /// Adds what the rays see that hit nothing. Only to the camera the background may be transparent.
-/// It is seen, and lights nothing.
+/// Where diffuse light comes from there, it is a light, of which surfaces have taken samples.
 void add_background(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
   const bool is_seen_through = rays.are_from_camera();
   PathLight light{.rays = hits.on_background(), .colors = {}};
-  if (context.frame.settings().indirect > 0) light.rays &= ~rays.after_diffuse();
+  RayMask bounced = 0;
+  if (context.frame.settings().indirect > 0) {
+    bounced = rays.after_diffuse();
+    light.rays &=
+        ~(context.frame.environment_scale() > 0 ? rays.of_kind(RayKind::diffuse) : bounced);
+  }
   RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask lanes) {
     const ColorLanes seen =
         context.data.background().colors(rays.batch.lines[group].direction, lanes);
     const VectorLanes& weights = rays.weights[group];
-    light.colors[group] = (is_seen_through ? seen.alpha * weights : weights) * seen.color;
+    VectorLanes& colors = light.colors[group];
+    colors = (is_seen_through ? seen.alpha * weights : weights) * seen.color;
+    if (const RayMask some = RayPacket::lanes(bounced, group); some != 0) {
+      const Lanes scale = lanes_of(context.frame.environment_scale());
+      colors = select(lanes_with(some), scale * colors, colors);
+    }
     if (!is_seen_through) return;
     for_each_ray(lanes, [&](std::size_t lane) {
       Lanes& channels = rays.samples[group * lane_count + lane]->channels;
       channels[3] = seen.alpha[lane];
     });
   });
+  clamp_bounced(context, rays, light);
   add(rays.samples, light);
 }
 
@@ -46,6 +69,7 @@ void add_visible_lights(const TraceContext& context, const PathRays& rays, const
   RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask) {
     light.colors[group] = rays.weights[group] * light.colors[group];
   });
+  clamp_bounced(context, rays, light);
   add(rays.samples, light);
 }
 
@@ -85,7 +109,9 @@ void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samp
     if (context_.identifies) identify_hits(context_.data, *rays, hits);
     add_background(context_, *rays, hits);
     if (hits.on_light != 0) add_visible_lights(context_, *rays, hits);
-    add(rays->samples, direct_light(context_, *rays, surfaces, shadow_rays_));
+    PathLight light = direct_light(context_, *rays, surfaces, shadow_rays_);
+    clamp_bounced(context_, *rays, light);
+    add(rays->samples, light);
     next_rays(context_, *rays, hits, surfaces, *next);
     std::swap(rays, next);
   }

@@ -4,8 +4,8 @@
 
 namespace crt::core {
 
-void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
-                  const LaneMask& lit, VectorLanes& seen) {
+void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const LaneMask& lit,
+                  VectorLanes& seen) {
   const VectorLanes& normal = surfaces.normal;
   const Lanes cosine = dot(light.directions, normal);
   const LaneMask before = cosine > 0.0;
@@ -19,7 +19,7 @@ void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, cons
     strength += select(shines, highlight, Lanes{});
   }
   strength = select(before, strength, Lanes{});
-  seen = strength * light.intensities * lanes_of(light_color) * surfaces.color;
+  seen = strength * light.intensities * light.colors * surfaces.color;
 }
 
 }  // namespace crt::core

@@ -28,7 +28,7 @@ Vec3Of<Real> ambient_light(const Rgb& ambient, AmbientModel model, const Vec3Of<
 
 /// Writes the diffuse and the specular light of one unobstructed light into `seen`. It is black if
 /// the light is behind the surface. Only lanes of `lit` are needed, and others may hold anything.
-void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
-                  const LaneMask& lit, VectorLanes& seen);
+void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const LaneMask& lit,
+                  VectorLanes& seen);
 
 }  // namespace crt::core

@@ -24,6 +24,9 @@ class PreparedBackground {
   /// Returns the colours in directions, in the lanes that have their bit in `lanes`.
   ColorLanes colors(const VectorLanes& directions, std::uint32_t lanes) const;
 
+  /// Returns about how many rows of a picture have all that there is to see.
+  int detail() const { return texture_ == nullptr ? 1 : texture_->height(); }
+
  private:
   ColorLanes panorama(const PanoramaBackground& panorama, const VectorLanes& directions,
                       std::uint32_t lanes) const;

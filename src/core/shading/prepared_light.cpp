@@ -8,6 +8,7 @@
 
 #include "core/geometry/disc_point.hpp"
 #include "core/math/direction_and_length.hpp"
+#include "core/shading/environment.hpp"
 
 namespace crt::core {
 
@@ -32,9 +33,11 @@ VectorLanes directions_in_cone(const VectorLanes& axis, const Lanes& cone_versin
 
 }  // namespace
 
-PreparedLight::PreparedLight(const Light& light, FalloffModel falloff_model)
+PreparedLight::PreparedLight(const Light& light, FalloffModel falloff_model,
+                             const Environment* environment)
     : PreparedLight(std::visit([](const auto& kind) { return PreparedLight(kind); }, light)) {
   counts_path_ = falloff_model == FalloffModel::path;
+  environment_ = environment;
 }
 
 PreparedLight::PreparedLight(const PointLight& light)
@@ -125,10 +128,14 @@ PreparedLight::PreparedLight(const RectangleLight& light)
   area_over_pi_ = length_a * length_b * sine / std::numbers::pi;
 }
 
+PreparedLight::PreparedLight(const EnvironmentLight& light)
+    : kind_(Kind::environment), color_(light.scale), ambient_(0), has_size_(true) {}
+
 LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_lengths,
                                const LightNumbers& numbers, LightSamples& light) const {
   const Lanes infinity = lanes_of(std::numeric_limits<double>::infinity());
   light.intensities = lanes_of(1);
+  light.colors = lanes_of(color_);
   switch (kind_) {
     case Kind::parallel:
       light.directions = lanes_of(-axis_);
@@ -154,6 +161,11 @@ LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_leng
     case Kind::sphere:
       sample_ball(points, numbers, light);
       break;
+    case Kind::environment:
+      environment_->sample(numbers, light);
+      light.colors = lanes_of(color_) * light.colors;
+      light.distances = infinity;
+      return light.distances > 0.0;
     case Kind::disc: {
       const auto [x, y] = point_of_disc(numbers.u, numbers.v);
       sample_flat(points, lanes_of(origin_) + x * lanes_of(edge_a_) + y * lanes_of(edge_b_), light);

@@ -24,7 +24,10 @@ struct LightSamples {
   /// Says what distance and the light's own shape leave of it. Of a light with a size it is the
   /// projected solid angle over pi, over the density of the sample.
   Lanes intensities{};
+  VectorLanes colors;
 };
+
+class Environment;
 
 /// A LightMet is where rays meet a light that is seen itself.
 struct LightMet {
@@ -34,8 +37,12 @@ struct LightMet {
 
 class PreparedLight {
  public:
-  PreparedLight(const Light& light, FalloffModel falloff_model);
+  /// `environment` is that of the scene's background, which EnvironmentLights need. It must outlive
+  /// the light.
+  PreparedLight(const Light& light, FalloffModel falloff_model,
+                const Environment* environment = nullptr);
 
+  /// Returns its colour, which is 1 for an EnvironmentLight.
   const Rgb& color() const { return color_; }
 
   /// Returns what every point gets of the light, lit or not, if it mirrors nothing.
@@ -63,8 +70,20 @@ class PreparedLight {
   explicit PreparedLight(const SphereLight& light);
   explicit PreparedLight(const DiscLight& light);
   explicit PreparedLight(const RectangleLight& light);
+  explicit PreparedLight(const EnvironmentLight& light);
 
-  enum class Kind { point, parallel, spot, cylinder, ball, sun, sphere, disc, rectangle };
+  enum class Kind {
+    point,
+    parallel,
+    spot,
+    cylinder,
+    ball,
+    sun,
+    sphere,
+    disc,
+    rectangle,
+    environment
+  };
 
   /// Returns how far the light has come along its axis. It is 0 beside the cylinder, and not above
   /// 0 before the cylinder begins.
@@ -92,6 +111,7 @@ class PreparedLight {
   bool has_size_ = false;
   bool is_visible_ = false;
   bool is_two_sided_ = false;
+  const Environment* environment_ = nullptr;
   double area_over_pi_ = 0;  ///< of a flat light
   Vec3 edge_a_{0, 0, 0};     ///< of a rectangle; of a disc they are radii across each other
   Vec3 edge_b_{0, 0, 0};

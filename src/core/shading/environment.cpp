@@ -1,0 +1,107 @@
+#include "core/shading/environment.hpp"
+
+#include <algorithm>
+#include <crt/elementary.hpp>
+#include <numbers>
+#include <span>
+
+namespace crt::core {
+
+namespace {
+
+constexpr std::size_t min_rows = 64;
+constexpr std::size_t max_rows = 512;
+/// Each cell is looked up at so many places a side.
+constexpr int places_a_side = 2;
+/// This share of the samples is drawn evenly, as the table does not know all that is in a cell.
+constexpr double even_share = 0.1;
+
+/// Returns the direction at a place of the grid: a turn about y and a height, both in [0, 1].
+Vec3 direction_at(double turn, double height) {
+  const double y = 1 - 2 * height;
+  const double level = std::sqrt(std::max(0.0, 4 * height * (1 - height)));
+  const double angle = 2 * std::numbers::pi * turn;
+  return {level * elementary::sin(angle), y, level * elementary::cos(angle)};
+}
+
+/// Makes sums of what was there before each entry, divided by the whole.
+void accumulate(std::span<double> entries) {
+  double sum = 0;
+  for (double& entry : entries) {
+    const double before = sum;
+    sum += entry;
+    entry = before;
+  }
+  for (double& entry : entries) entry /= sum;
+}
+
+/// A Drawn is an entry that a number in [0, 1) has drawn.
+struct Drawn {
+  std::size_t entry;
+  double rest;   ///< where in the entry, in [0, 1)
+  double share;  ///< of the entry
+};
+Drawn draw(std::span<const double> before, double number) {
+  const auto next = std::upper_bound(before.begin() + 1, before.end() - 1, number);
+  const auto entry = static_cast<std::size_t>(next - before.begin()) - 1;
+  const double share = before[entry + 1] - before[entry];
+  return {entry, std::min((number - before[entry]) / share, 1 - 0x1p-53), share};
+}
+
+}  // namespace
+
+Environment::Environment(const PreparedBackground& background)
+    : background_(background),
+      rows_(std::clamp(static_cast<std::size_t>(background.detail()), min_rows, max_rows)),
+      columns_(2 * rows_),
+      by_row_(rows_ + 1),
+      by_column_(rows_ * (columns_ + 1)) {
+  constexpr int places = places_a_side * places_a_side;
+  static_assert(places == lane_count);
+  double whole = 0;
+  for (std::size_t row = 0; row < rows_; ++row) {
+    double* const cells = &by_column_[row * (columns_ + 1)];
+    for (std::size_t column = 0; column < columns_; ++column) {
+      VectorLanes directions;
+      for (int place = 0; place < places; ++place) {
+        const double across = (place % places_a_side + 0.5) / places_a_side;
+        const double down = (place / places_a_side + 0.5) / places_a_side;
+        directions.set(
+            static_cast<std::size_t>(place),
+            direction_at((static_cast<double>(column) + across) / static_cast<double>(columns_),
+                         (static_cast<double>(row) + down) / static_cast<double>(rows_)));
+      }
+      const ColorLanes colors = background_.colors(directions, (1u << lane_count) - 1);
+      const Lanes light = colors.color.x + colors.color.y + colors.color.z;
+      cells[column] = light[0] + light[1] + light[2] + light[3];
+      whole += cells[column];
+    }
+  }
+  // Where all is black any density does.
+  const double mean = whole / static_cast<double>(rows_ * columns_);
+  const double least = whole > 0 ? even_share / (1 - even_share) * mean : 1;
+  for (std::size_t row = 0; row < rows_; ++row) {
+    const std::span cells(&by_column_[row * (columns_ + 1)], columns_ + 1);
+    for (double& cell : cells.first(columns_)) by_row_[row] += cell += least;
+    accumulate(cells);
+  }
+  accumulate(by_row_);
+}
+
+void Environment::sample(const LightNumbers& numbers, LightSamples& light) const {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const Drawn row = draw(by_row_, numbers.v[lane]);
+    const Drawn column = draw(
+        std::span(by_column_).subspan(row.entry * (columns_ + 1), columns_ + 1), numbers.u[lane]);
+    light.directions.set(
+        lane, direction_at(
+                  (static_cast<double>(column.entry) + column.rest) / static_cast<double>(columns_),
+                  (static_cast<double>(row.entry) + row.rest) / static_cast<double>(rows_)));
+    // All cells together have 4 pi.
+    const double even = 1 / static_cast<double>(rows_ * columns_);
+    light.intensities[lane] = 4 * even / (row.share * column.share);
+  }
+  light.colors = background_.colors(light.directions, (1u << lane_count) - 1).color;
+}
+
+}  // namespace crt::core
