@@ -71,18 +71,10 @@ class ObjectTests {
 
   /// Lets an object that rays surely meet bound what else matters to them.
   void limit_by(const BoundingProxy& proxy) {
-<<<<<<< HEAD
-    if constexpr (Asked::passes_some) {
-      if (asked_.passes(proxy)) return;
-    }
-    step(active_);
-    const RayMask rays = active_ & ~filter_.left(proxy);
-=======
     if ((proxy.passed_by & asked_.kind) != 0) [[unlikely]]
       return;
-    step(going_);
-    const RayMask rays = going_ & ~filter_.left(proxy);
->>>>>>> tone
+    step(active_);
+    const RayMask rays = active_ & ~filter_.left(proxy);
     typename FilterRays<Real>::Parts parts;
     const RayMask accepted =
         filter_.decide(proxy, rays, filter_.starts_on(proxy, rays), true, parts).accepted;
