@@ -325,12 +325,12 @@ class ExactRoundedBoxShape final : public ExactShape {
     ExactRay ahead = ray.seen_as(near);
     if (leaves) ahead.world_direction = -ray.world_direction;
     const double shortest = unit_roundoff * layout_.unit / largest_component(near.direction);
-    return append_from_face(start, exit_from_surface(ahead, start.face, out), shortest, out);
+    return append_from_face(start, exit_from_face(ahead, start.face, out), shortest, out);
   }
 
   /// Returns where a ray leaves that starts on a face and goes in. `out` has room for crossings,
   /// and is left as it was.
-  Crossing exit_from_surface(const ExactRay& ray, std::uint32_t start, CrossingList& out) const {
+  Crossing exit_from_face(const ExactRay& ray, std::uint32_t start, CrossingList& out) const {
     const NearLine line = NearLine::at_origin(ray.near, layout_.center, layout_.unit);
     const WayOut way = way_out(layout_, line);
     if (way.is_first) return second_crossing(ray, start, way.leave.sides);

@@ -298,16 +298,16 @@ double error_beyond_seam(const RoundedBoxLayout& box, const NearLine& line,
 
 }  // namespace
 
-Crossing round_crossing(const RoundedBoxLayout& box, const ObjectRay& ray, const NearLine& near,
+Crossing round_crossing(const RoundedBoxLayout& box, const ObjectRay& ray, const NearLine& line,
                         const WalkStep& step, bool entering) {
-  NearLine line = near;
-  const RoundEquation equation = equation_of(box, ray, step, line);
+  NearLine near = line;
+  const RoundEquation equation = equation_of(box, ray, step, near);
   const double x = equation.within(equation.root(entering));
-  const double t = line.to_t(x);
+  const double t = near.to_t(x);
   const double error =
-      error_next_to(box, line, line.at(x), t, equation.half / box.radius, std::sqrt(equation.a));
+      error_next_to(box, near, near.at(x), t, equation.half / box.radius, std::sqrt(equation.a));
   return {.t = t,
-          .error = std::max(error, error_beyond_seam(box, line, equation, x, t, entering)),
+          .error = std::max(error, error_beyond_seam(box, near, equation, x, t, entering)),
           .face = face_at(step.sides),
           .root = static_cast<std::uint8_t>(entering ? 0 : 1),
           .entering = entering};
