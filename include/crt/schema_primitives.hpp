@@ -166,7 +166,7 @@ inline constexpr auto table<RoundedBox> = Table{
     field("corner_a", &RoundedBox::corner_a, point, required, "any corner"),
     field("corner_b", &RoundedBox::corner_b, opposite_to("corner_a"), required, "the opposite one"),
     field("radius", &RoundedBox::radius, length_or_zero, required,
-          "of edges and corners, at least 0 and at most half of the shortest side"),
+          "at least 0, at most half of the shortest side"),
     material<RoundedBox>,
 };
 

@@ -277,6 +277,50 @@ TEST_CASE("rounded box: a ray through a seam goes in and out once") {
   CHECK(at_seams > 50000);
 }
 
+TEST_CASE("rounded box: errors are true ones next to seams, too, and for lines along faces") {
+  Random random(34);
+  int compared = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = random.power_of_ten(-6, 6);
+    const RoundedBox box = random_box(random, size * random.in_cube(), size);
+    const Vec3 lower = glm::min(box.corner_a, box.corner_b) + box.radius;
+    const Vec3 upper = glm::max(box.corner_a, box.corner_b) - box.radius;
+    // The line is all but in the plane of a face, or in a plane that touches an edge.
+    const int axis = static_cast<int>(random.bits() % 3);
+    const int other = (axis + 1) % 3;
+    Vec3 out(0);
+    out[axis] = random.one_in(2) ? -1 : 1;
+    out[other] = random.one_in(2) ? 0 : random.uniform(-1, 1);
+    out = glm::normalize(out);
+    Vec3 target = lower + 0.5 * (upper - lower);
+    target[axis] = (out[axis] < 0 ? lower : upper)[axis];
+    target[other] = (random.one_in(2) ? lower : upper)[other];
+    target += box.radius * (1 - random.power_of_ten(-17, -1)) * out;
+    Vec3 direction = glm::cross(out, random.in_cube());
+    if (random.one_in(3)) direction = glm::cross(out, Vec3(axis == 0, axis == 1, axis == 2));
+    if (glm::length(direction) < 0.1) continue;
+    direction += random.power_of_ten(-17, -2) * random.in_cube();
+    const core::ObjectRay ray{.origin = target - size * random.power_of_ten(-2, 2) * direction,
+                              .direction = direction};
+    const core::CrossingList found = crossings(box, ray);
+    const RealRay real(ray);
+    std::vector<Real> places = candidates_of(box, real);
+    std::sort(places.begin(), places.end());
+    std::vector<Real> ends;
+    bool inside = false;
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+      const bool is_inside = field_of(box, real.at((places[k] + places[k + 1]) / 2)) < 0;
+      if (is_inside != inside) ends.push_back(places[k]);
+      inside = is_inside;
+    }
+    // Whether it is a hit at all may be left to rounding.
+    if (found.size() != 2 || ends.size() != 2) continue;
+    for (std::size_t k = 0; k < 2; ++k) REQUIRE(magnitude(ends[k] - found[k].t) <= found[k].error);
+    ++compared;
+  }
+  CHECK(compared > 5000);
+}
+
 TEST_CASE("rounded box: lines along faces, edges and tangents do not enter") {
   CHECK(crossings(brick, {.origin = {-5, 3, 1}, .direction = {1, 0, 0}}).empty());
   CHECK(crossings(brick, {.origin = {2, -5, 0}, .direction = {0, 1, 0}}).empty());

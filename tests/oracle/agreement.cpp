@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -12,6 +13,8 @@
 #include <optional>
 #include <thread>
 
+#include "core/geometry/shape.hpp"
+#include "core/math/vector.hpp"
 #include "crt/entity.hpp"
 #include "crt/error.hpp"
 #include "crt/scene.hpp"
@@ -193,7 +196,13 @@ Subject make_crowd(Counted& random, const Vec3& at, double size) {
     const bool is_wide = std::holds_alternative<Plane>(part) ||
                          std::holds_alternative<Quadric>(part) ||
                          std::holds_alternative<Revolution>(part);
-    if (is_wide || is_elsewhere) part = Sphere{.center = middle, .radius = size};
+    // Of two surfaces that are nearer than the rounding of a start, one alone may be behind it.
+    constexpr double few_roundings = 0x1p-46;
+    const core::Bounds box = core::make_shape(part)->bounds();
+    const Vec3 sides = box.upper - box.lower;
+    const bool is_lost =
+        std::min({sides.x, sides.y, sides.z}) < few_roundings * core::largest_component(middle);
+    if (is_wide || is_elsewhere || is_lost) part = Sphere{.center = middle, .radius = size};
     crowd.parts.push_back(part);
     crowd.entities.emplace_back(part);
   }

@@ -83,6 +83,8 @@ std::vector<ConvexSolid> convex_solids() {
       {"sphere about the origin", Sphere{}},
       {"box", Box{.corner_a = {-0.7, -0.6, -0.8}, .corner_b = {0.5, 0.7, 0.6}}},
       {"box from the origin", Box{.corner_a = {0, 0, 0}, .corner_b = {0.1, 0.1, 0.1}}},
+      {"rounded box",
+       RoundedBox{.corner_a = {-0.7, -0.6, -0.8}, .corner_b = {0.5, 0.7, 0.6}, .radius = 0.4}},
       {"plane", Plane{.normal = {0.3, 0.8, -0.2}, .position = {0.1, 0.4, -0.3}}, false},
       {"half plane", HalfPlane{.normal = {0.1, 1, 0.4}, .position = {-0.5, 0.1, 0}}, false},
       {"cylinder", Cylinder{.from = {-0.5, -0.4, 0.1}, .to = {0.5, 0.6, 0.2}, .radius = 0.6}},

@@ -266,13 +266,13 @@ class ExactRoundedBoxShape final : public ExactShape {
       const NearPoint p = near_point(ray, t);
       PreciseVec3 q{0.0, 0.0, 0.0};
       double slope = 0;
-      double squared_speed = 0;
+      double squared_length = 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (sides[axis] == 0) continue;
         const double along = d[static_cast<int>(axis)];
         q[axis] = p.beyond(sides, axis);
         slope += q[axis].hi * along;
-        squared_speed += along * along;
+        squared_length += along * along;
       }
       if ((slope < 0) != crossing.entering || slope == 0) return false;
       const DoubleDouble height = precise_dot(q, q) - two_product(radius_, radius_);
@@ -286,7 +286,7 @@ class ExactRoundedBoxShape final : public ExactShape {
           .value_error = 2 * size * p.error + precise_roundoff * (size * size + radius_ * radius_),
           .rate = 2 * slope,
           .rate_error = 2 * change_rounding * size * largest_component(d),
-          .half_curvature = squared_speed};
+          .half_curvature = squared_length};
       const double error = newton.error() + precise_roundoff * std::abs(t.hi);
       if (settle(ray, t, error, crossing)) return true;
     }
@@ -325,12 +325,12 @@ class ExactRoundedBoxShape final : public ExactShape {
     ExactRay ahead = ray.seen_as(near);
     if (leaves) ahead.world_direction = -ray.world_direction;
     const double shortest = unit_roundoff * layout_.unit / largest_component(near.direction);
-    return append_from_face(start, exit_from_surface(ahead, start.face, out), shortest, out);
+    return append_from_face(start, exit_from_face(ahead, start.face, out), shortest, out);
   }
 
   /// Returns where a ray leaves that starts on a face and goes in. `out` has room for crossings,
   /// and is left as it was.
-  Crossing exit_from_surface(const ExactRay& ray, std::uint32_t start, CrossingList& out) const {
+  Crossing exit_from_face(const ExactRay& ray, std::uint32_t start, CrossingList& out) const {
     const NearLine line = NearLine::at_origin(ray.near, layout_.center, layout_.unit);
     const WayOut way = way_out(layout_, line);
     if (way.is_first) return second_crossing(ray, start, way.leave.sides);

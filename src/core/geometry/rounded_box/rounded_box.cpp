@@ -32,7 +32,7 @@ bool RoundedBoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 bool RoundedBoxShape::crossings_from_face(const ObjectRay& ray, CrossingList& out) const {
   const bool leaves = ray.start.side == Side::outside;
   const double shortest = unit_roundoff * layout_.unit / largest_component(ray.direction);
-  return append_from_face(ray.start, exit_from_surface(leaves ? turned_round(ray) : ray), shortest,
+  return append_from_face(ray.start, exit_from_face(leaves ? turned_round(ray) : ray), shortest,
                           out);
 }
 
@@ -53,7 +53,7 @@ bool append_from_face(const FaceStart& start, Crossing other, double shortest, C
   return span.finish(out);
 }
 
-Crossing RoundedBoxShape::exit_from_surface(const ObjectRay& ray) const {
+Crossing RoundedBoxShape::exit_from_face(const ObjectRay& ray) const {
   const NearLine line = NearLine::at_origin(ray, layout_.center, layout_.unit);
   const WayOut way = way_out(layout_, line);
   if (!way.is_first) return crossing(ray, line, way.leave, false);

@@ -61,7 +61,7 @@ class RoundedBoxShape final : public Shape {
   Crossing flat_crossing(const ObjectRay& ray, const NearLine& line, const WalkStep& step,
                          bool entering) const;
   /// Returns where a ray leaves that starts on a face and goes in. It may have been turned round.
-  Crossing exit_from_surface(const ObjectRay& ray) const;
+  Crossing exit_from_face(const ObjectRay& ray) const;
   /// Writes the point of a round face next to `offset` from the center.
   template <class Real>
   void write_round_point(const Vec3Of<Real>& offset, std::uint32_t face, bool with_uv,

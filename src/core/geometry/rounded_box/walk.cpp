@@ -33,7 +33,7 @@ bool is_inside(const RoundedBoxLayout& box, const Sides& sides, const Vec3& p) {
   // rounding has made of the inner box. The plane is that of the least depth.
   double depth = infinity;
   double others = 0;
-  double nearest = 0;
+  double nearest = 0;  // (the component along the axis of that depth)
   for (int axis = 0; axis < 3; ++axis) {
     const int side = sides[static_cast<std::size_t>(axis)];
     if (side == 0) continue;
@@ -45,7 +45,8 @@ bool is_inside(const RoundedBoxLayout& box, const Sides& sides, const Vec3& p) {
       nearest = q;
     }
   }
-  if (depth == infinity) return true;
+  // What rounding takes for the inner box itself is inside, also if it has lost the radius.
+  if (nearest == 0 && others == 0) return true;
   return depth > 0 && (others == 0 || others < depth * (2 * box.radius - depth));
 }
 
@@ -236,34 +237,77 @@ WayOut way_out(const RoundedBoxLayout& box, const NearLine& line) {
   return way;
 }
 
-Crossing round_crossing(const RoundedBoxLayout& box, const ObjectRay& ray, const NearLine& near,
-                        const WalkStep& step, bool entering) {
-  const Vec3 d = across(step.sides, near.direction);
-  const double a = squared(d);
-  const double most = 2 * box.size / std::sqrt(near.squared_length);
-  const double from = std::max(step.from, std::min(near.closest(), 0.0) - most);
-  const double to = std::min(step.to, std::max(near.closest(), 0.0) + most);
-  const auto within = [&](double x) { return x >= from ? std::min(x, to) : from; };
-  // The equation is solved from where the line is nearest to the edge or the corner, as far as the
-  // step goes: there all numbers are about as large as the radius.
-  const double middle = within(-glm::dot(box.beyond(step.sides, near.point), d) / a);
-  NearLine line = near;
-  line.move_to(ray, box.center, near.to_precise_t(middle));
+namespace {
+
+/// A RoundEquation is a x^2 + 2 b x + c = 0, and where in a step it is solved for.
+struct RoundEquation {
+  double a = 0;
+  double b = 0;
+  double c = 0;
+  double half = 0;  ///< the root of the discriminant
+  double from = 0;  ///< the step's ends, in the line's x
+  double to = 0;
+
+  double within(double x) const { return x >= from ? std::min(x, to) : from; }
+  double root(bool entering) const {
+    if (!(half > 0)) return -b / a;
+    if (entering) return b >= 0 ? -(b + half) / a : c / (half - b);
+    return b < 0 ? (half - b) / a : -c / (b + half);
+  }
+};
+
+/// Moves a line to where it is nearest to an edge or a corner, as far as the step goes, and returns
+/// the equation there. All its numbers are about as large as the radius.
+RoundEquation equation_of(const RoundedBoxLayout& box, const ObjectRay& ray, const WalkStep& step,
+                          NearLine& line) {
+  const Vec3 d = across(step.sides, line.direction);
+  const double most = 2 * box.size / std::sqrt(line.squared_length);
+  const double closest = line.closest();
+  RoundEquation equation{.a = squared(d),
+                         .from = std::max(step.from, std::min(closest, 0.0) - most),
+                         .to = std::min(step.to, std::max(closest, 0.0) + most)};
+  const double middle =
+      equation.within(-glm::dot(box.beyond(step.sides, line.point), d) / equation.a);
+  line.move_to(ray, box.center, line.to_precise_t(middle));
+  equation.from -= middle;
+  equation.to -= middle;
   const Vec3 q = box.beyond(step.sides, line.point);
   const double distance = glm::length(q);
-  const double b = glm::dot(q, d);
-  const double c = (distance + box.radius) * (distance - box.radius);
-  const double half = std::sqrt(std::max(difference_of_products(b, b, a, c), 0.0));
-  double x = -b / a;
-  if (half > 0 && entering) {
-    x = b >= 0 ? -(b + half) / a : c / (half - b);
-  } else if (half > 0) {
-    x = b < 0 ? (half - b) / a : -c / (b + half);
-  }
-  x = within(middle + x) - middle;
-  const double t = line.to_t(x);
+  equation.b = glm::dot(q, d);
+  equation.c = (distance + box.radius) * (distance - box.radius);
+  const double discriminant =
+      difference_of_products(equation.b, equation.b, equation.a, equation.c);
+  equation.half = std::sqrt(std::max(discriminant, 0.0));
+  return equation;
+}
+
+/// Returns the error of a root if the line grazes there, next to a seam. It may truly cross the
+/// face beyond, which is less curved, by the rate at which the distance changes at the seam.
+double error_beyond_seam(const RoundedBoxLayout& box, const NearLine& line,
+                         const RoundEquation& equation, double x, double t, bool entering) {
+  const auto& [a, b, c, half, from, to] = equation;
+  const double grazing = std::sqrt(2 * standard_error_across(2 * box.size) * a / box.radius);
+  if (!(half < grazing * box.radius)) return 0;
+  const double seam = entering ? to : from;
+  const double rate = (a * seam + b) / box.radius * (entering ? -1 : 1);
+  if (!(rate > -grazing)) return 0;
+  const double least_rate = std::max(rate - 0.125 * grazing, 0.0);
+  return line.to_t_length(std::abs(seam - x)) +
+         error_next_to(box, line, line.at(seam), t, least_rate, 0);
+}
+
+}  // namespace
+
+Crossing round_crossing(const RoundedBoxLayout& box, const ObjectRay& ray, const NearLine& line,
+                        const WalkStep& step, bool entering) {
+  NearLine near = line;
+  const RoundEquation equation = equation_of(box, ray, step, near);
+  const double x = equation.within(equation.root(entering));
+  const double t = near.to_t(x);
+  const double error =
+      error_next_to(box, near, near.at(x), t, equation.half / box.radius, std::sqrt(equation.a));
   return {.t = t,
-          .error = error_next_to(box, line, line.at(x), t, half / box.radius, std::sqrt(a)),
+          .error = std::max(error, error_beyond_seam(box, near, equation, x, t, entering)),
           .face = face_at(step.sides),
           .root = static_cast<std::uint8_t>(entering ? 0 : 1),
           .entering = entering};
