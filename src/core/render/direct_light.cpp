@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <limits>
+#include <numbers>
 
 #include "core/math/vector.hpp"
 #include "core/render/sample_identity.hpp"
@@ -97,16 +98,25 @@ class NumbersOfLights {
   std::array<LightNumbers, RayPacket::group_count> spare_;
 };
 
-/// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
+/// Aims shadow rays from some surfaces at a light. Those of `sending_diffuse` send diffuse rays on,
+/// too, which may meet it. Returns to which it may come at all.
 RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
-               const NumbersOfLights& numbers, ShadowRays& rays) {
+               const NumbersOfLights& numbers, RayMask sending_diffuse, ShadowRays& rays) {
   RayMask aimed = 0;
   LightSamples& samples = rays.samples;
+  samples.diffuse_shares = lanes_of(1);
   RayPacket::for_each_group(some, [&](std::size_t i, RayMask lanes) {
     const SurfaceGroup& group = surfaces.groups[i];
     LaneMask lit = lanes_with(lanes);
     lit &= source.sample(group.position, group.path_length, numbers.of_group(i), samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
+    if (source.is_found_by_rays()) {
+      // A diffuse ray has the density of the cosine over pi.
+      const Lanes cosine = max(Lanes{}, dot(samples.directions, group.phong.normal));
+      const Lanes by_ray = select(lanes_with(RayPacket::lanes(sending_diffuse, i)),
+                                  (1 / std::numbers::pi) * cosine, Lanes{});
+      samples.diffuse_shares = balanced<Lanes>(samples.densities(), by_ray);
+    }
     direct_light(group.phong, samples, lit, rays.light[i]);
     if (group.smooth != 0) soften_terminator(group, samples.directions, rays.light[i]);
     lit &= !is_black(rays.light[i]);
@@ -141,10 +151,11 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   const PacketStarts starts = context.data.noted_starts(batch, some);
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   NumbersOfLights numbers(context, rays, some);
+  const RayMask sending_diffuse = rays.sending_diffuse(context.frame.settings().indirect);
   std::size_t light_index = 0;
   for (const PreparedLight& source : context.frame.lights()) {
     if (source.has_size()) numbers.next();
-    const RayMask sent = aim_at(source, surfaces, some, numbers, shadow_rays);
+    const RayMask sent = aim_at(source, surfaces, some, numbers, sending_diffuse, shadow_rays);
     const LightPaths paths = paths_to_light(context, batch, starts, sent);
     // Shadows of what has a size have no edge.
     if (context.identifies && !source.has_size())

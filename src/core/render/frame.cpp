@@ -59,8 +59,7 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   lights_.reserve(data.scene().lights.size());
   for (const Light& light : data.scene().lights) {
     lights_.emplace_back(light, settings.falloff_model, data.environment());
-    if (const auto* around = std::get_if<EnvironmentLight>(&light))
-      environment_scale_ += around->scale;
+    if (std::holds_alternative<EnvironmentLight>(light)) environment_ = lights_.back();
     ambient_ += lights_.back().ambient();
     draws_numbers_ = draws_numbers_ || lights_.back().has_size();
     shows_lights_ = shows_lights_ || lights_.back().is_visible();

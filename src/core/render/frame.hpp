@@ -2,6 +2,7 @@
 // first ray.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/camera/camera_rays.hpp"
@@ -34,8 +35,8 @@ class Frame {
   /// Returns whether a light is seen itself.
   bool shows_lights() const { return shows_lights_; }
 
-  /// Returns how strong the background is as a light.
-  double environment_scale() const { return environment_scale_; }
+  /// Returns the background as a light, or null if it is none.
+  const PreparedLight* environment() const { return environment_ ? &*environment_ : nullptr; }
 
   /// Returns what all lights together give every point.
   const Rgb& ambient() const { return ambient_; }
@@ -69,7 +70,7 @@ class Frame {
   std::vector<PicturePlaceLanes> subpixels_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};
-  double environment_scale_ = 0;
+  std::optional<PreparedLight> environment_;
   bool draws_numbers_ = false;
   bool shows_lights_ = false;
   std::vector<double> gains_behind_;  ///< by bounces; none if no surface brightens light

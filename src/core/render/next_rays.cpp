@@ -1,5 +1,7 @@
 #include "core/render/next_rays.hpp"
 
+#include <numbers>
+
 #include "core/geometry/disc_point.hpp"
 #include "core/math/vector.hpp"
 #include "core/render/behind_surfaces.hpp"
@@ -25,6 +27,7 @@ struct Split {
   Branch mirrored;
   Branch refracted;
   Branch diffuse;
+  Lanes diffuse_densities{};
   std::array<MediaLists::List, lane_count> media_behind;
 };
 
@@ -38,7 +41,7 @@ VectorLanes kept_on_side(const VectorLanes& direction, const VectorLanes& side) 
 /// directions, most of them near the normal. The cosine in their density leaves a weight of the
 /// surface's diffuse colour.
 Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const SurfaceGroup& from,
-                    std::size_t group, RayMask some) {
+                    std::size_t group, RayMask some, Lanes& densities) {
   const Settings& settings = context.frame.settings();
   Branch branch;
   for_each_ray(some & mask_of(from.phong.diffuse > 0.0), [&](std::size_t lane) {
@@ -60,6 +63,7 @@ Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const Sur
   const Lanes upwards = sqrt(max(Lanes{}, 1.0 - x * x - y * y));
   const VectorLanes& normal = from.phong.normal;
   const auto [a, b] = directions_across(normal);
+  densities = (1 / std::numbers::pi) * upwards;
   branch.directions = kept_on_side(x * a + y * b + upwards * normal, from.face_normal);
   branch.weights = from.phong.diffuse * rays.weights[group] * from.phong.color;
   branch.rays &= ~mask_of(is_black(branch.weights));
@@ -91,7 +95,7 @@ Split split(TraceContext& context, const PathRays& rays, const PathHits& hits,
                     .directions = kept_on_side(mirrored(view, normal), from.face_normal),
                     .weights = mirrored_share * weights};
   if (context.frame.settings().indirect > 0)
-    split.diffuse = diffuse_rays(context, rays, from, group, some);
+    split.diffuse = diffuse_rays(context, rays, from, group, some, split.diffuse_densities);
   return split;
 }
 
@@ -181,6 +185,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       diffuse.kind = RayKind::diffuse;
       ++diffuse.diffuse_bounces;
       diffuse.path_length = from.path_length();
+      diffuse.density = parts.diffuse_densities[lane];
       const bool waits = is_mirrored || goes_through;
       describe(waits ? work.pending.push() : last, parts.diffuse, from.start(), diffuse);
     }
@@ -189,6 +194,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       mirrored.kind = RayKind::reflection;
       ++mirrored.bounces;
       mirrored.path_length = from.path_length();
+      mirrored.density = 0;
       describe(goes_through ? work.pending.push() : last, parts.mirrored, from.start(), mirrored);
     }
     if (goes_through) {
@@ -196,6 +202,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       through.kind = RayKind::refraction;
       ++through.bounces;
       through.path_length = from.path_length();
+      through.density = 0;
       through.media = parts.media_behind[lane];
       through.media_mark = work.media.mark();
       describe(last, parts.refracted, from.start_behind(), through);

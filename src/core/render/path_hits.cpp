@@ -48,12 +48,9 @@ PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits)
 
 void meet_lights(const TraceContext& context, const PathRays& rays, PathHits& hits) {
   const std::vector<PreparedLight>& lights = context.frame.lights();
-  // The surfaces that diffuse rays come from have taken samples of all lights.
-  const bool is_indirect = context.frame.settings().indirect > 0;
-  const RayMask some = rays.all() & ~(is_indirect ? rays.of_kind(RayKind::diffuse) : 0);
   for (std::uint32_t number = 0; number < lights.size(); ++number) {
     if (!lights[number].is_visible()) continue;
-    RayPacket::for_each_group(some, [&](std::size_t group, RayMask lanes) {
+    RayPacket::for_each_group(rays.all(), [&](std::size_t group, RayMask lanes) {
       const auto [met, t] = lights[number].meet(rays.batch.lines[group]);
       for_each_ray(lanes & mask_of(met), [&](std::size_t lane) {
         const std::size_t ray = group * lane_count + lane;

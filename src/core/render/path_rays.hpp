@@ -37,11 +37,17 @@ struct PathRays {
     }
     return mask;
   }
-  /// Returns those of a kind.
-  RayMask of_kind(RayKind kind) const {
+  /// Returns those whose surfaces may send diffuse rays on, of which there may be so many in a row.
+  RayMask sending_diffuse(int indirect) const {
     RayMask mask = 0;
-    for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].kind == kind) << i;
+    for (std::size_t i = 0; indirect > 0 && i < count; ++i)
+      mask |= mask_of(states[i].diffuse_bounces < indirect) << i;
     return mask;
+  }
+  /// Returns the densities with which the directions of a group were drawn.
+  Lanes densities(std::size_t group) const {
+    const PathState* const first = &states[group * lane_count];
+    return Lanes([first](auto lane) { return first[lane].density; });
   }
   /// Returns those that come after a diffuse bounce.
   RayMask after_diffuse() const {

@@ -28,16 +28,26 @@ void clamp_bounced(const TraceContext& context, const PathRays& rays, PathLight&
                             });
 }
 
+/// Returns the shares of what rays find of a light, of which the surfaces that they come from may
+/// have taken samples. They meet it at t.
+Lanes shares_of_rays(const PathRays& rays, std::size_t group, const PreparedLight& light,
+                     const Lanes& t) {
+  const Lanes own = rays.densities(group);
+  if (all(own == 0.0)) return lanes_of(1);
+  const Lanes share = balanced<Lanes>(own, light.densities(rays.batch.lines[group], t));
+  return select(own > 0.0, share, lanes_of(1));
+}
+
 /// Adds what the rays see that hit nothing. Only to the camera the background may be transparent.
-/// Where diffuse light comes from there, it is a light, of which surfaces have taken samples.
+/// After a diffuse bounce it is there only as far as it is a light.
 void add_background(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
   const bool is_seen_through = rays.are_from_camera();
+  const PreparedLight* const environment = context.frame.environment();
   PathLight light{.rays = hits.on_background(), .colors = {}};
   RayMask bounced = 0;
   if (context.frame.settings().indirect > 0) {
     bounced = rays.after_diffuse();
-    light.rays &=
-        ~(context.frame.environment_scale() > 0 ? rays.of_kind(RayKind::diffuse) : bounced);
+    if (environment == nullptr) light.rays &= ~bounced;
   }
   RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask lanes) {
     const ColorLanes seen =
@@ -45,9 +55,10 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
     const VectorLanes& weights = rays.weights[group];
     VectorLanes& colors = light.colors[group];
     colors = (is_seen_through ? seen.alpha * weights : weights) * seen.color;
-    if (const RayMask some = RayPacket::lanes(bounced, group); some != 0) {
-      const Lanes scale = lanes_of(context.frame.environment_scale());
-      colors = select(lanes_with(some), scale * colors, colors);
+    if (const RayMask some = RayPacket::lanes(bounced, group) & lanes; some != 0) {
+      const Lanes shares = shares_of_rays(rays, group, *environment, Lanes{});
+      const VectorLanes lit = shares * lanes_of(environment->color()) * colors;
+      colors = select(lanes_with(some), lit, colors);
     }
     if (!is_seen_through) return;
     for_each_ray(lanes, [&](std::size_t lane) {
@@ -59,15 +70,16 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
   add(rays.samples, light);
 }
 
-/// Adds lights that rays see themselves.
+/// Adds lights that rays meet.
 void add_visible_lights(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
   PathLight light{.rays = hits.seen & hits.on_light, .colors = {}};
   for_each_ray(light.rays, [&](std::size_t i) {
-    light.colors[i / lane_count].set(i % lane_count,
-                                     context.frame.lights()[hits.lights[i]].color());
-  });
-  RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask) {
-    light.colors[group] = rays.weights[group] * light.colors[group];
+    const PreparedLight& source = context.frame.lights()[hits.lights[i]];
+    const std::size_t group = i / lane_count;
+    const Lanes share = shares_of_rays(rays, group, source, lanes_of(hits.hits[i].t));
+    light.colors[group].set(
+        i % lane_count,
+        share[i % lane_count] * (rays.weights[group].lane(i % lane_count) * source.color()));
   });
   clamp_bounced(context, rays, light);
   add(rays.samples, light);

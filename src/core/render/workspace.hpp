@@ -26,6 +26,9 @@ struct PathState {
   int bounces = 0;  ///< in mirrors and glass, before this ray
   int diffuse_bounces = 0;
   double path_length = 0;  ///< from the camera to the ray's origin
+  /// This is the density by solid angle with which its direction was drawn. It is 0 for rays whose
+  /// surfaces have taken no samples of lights instead.
+  double density = 0;
   MediaLists::List media = MediaLists::empty;
   /// This is the MediaLists::mark() when the ray was put aside. It needs no lists made later.
   std::uint32_t media_mark = 0;

@@ -1,9 +1,12 @@
 #include "core/shading/environment.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <crt/elementary.hpp>
 #include <numbers>
 #include <span>
+
+#include "core/math/quick_angle.hpp"
 
 namespace crt::core {
 
@@ -38,14 +41,13 @@ void accumulate(std::span<double> entries) {
 /// A Drawn is an entry that a number in [0, 1) has drawn.
 struct Drawn {
   std::size_t entry;
-  double rest;   ///< where in the entry, in [0, 1)
-  double share;  ///< of the entry
+  double rest;  ///< where in the entry, in [0, 1)
 };
 Drawn draw(std::span<const double> before, double number) {
   const auto next = std::upper_bound(before.begin() + 1, before.end() - 1, number);
   const auto entry = static_cast<std::size_t>(next - before.begin()) - 1;
   const double share = before[entry + 1] - before[entry];
-  return {entry, std::min((number - before[entry]) / share, 1 - 0x1p-53), share};
+  return {entry, std::min((number - before[entry]) / share, 1 - 0x1p-53)};
 }
 
 }  // namespace
@@ -97,11 +99,29 @@ void Environment::sample(const LightNumbers& numbers, LightSamples& light) const
         lane, direction_at(
                   (static_cast<double>(column.entry) + column.rest) / static_cast<double>(columns_),
                   (static_cast<double>(row.entry) + row.rest) / static_cast<double>(rows_)));
-    // All cells together have 4 pi.
-    const double even = 1 / static_cast<double>(rows_ * columns_);
-    light.intensities[lane] = 4 * even / (row.share * column.share);
+    light.intensities[lane] = 4 / strength(row.entry, column.entry);
   }
   light.colors = background_.colors(light.directions, (1u << lane_count) - 1).color;
+}
+
+double Environment::strength(std::size_t row, std::size_t column) const {
+  const double* const before = &by_column_[row * (columns_ + 1) + column];
+  const double share = (by_row_[row + 1] - by_row_[row]) * (before[1] - before[0]);
+  return share * static_cast<double>(rows_ * columns_);
+}
+
+Lanes Environment::densities(const VectorLanes& directions) const {
+  const Lanes turn = quick_atan2(directions.x, directions.z) * (0.5 / std::numbers::pi);
+  const Lanes columns = (turn - floor(turn)) * static_cast<double>(columns_);
+  const Lanes rows = 0.5 * (1.0 - directions.y) * static_cast<double>(rows_);
+  Lanes result;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto row =
+        std::min(static_cast<std::size_t>(std::max(0.0, double{rows[lane]})), rows_ - 1);
+    const auto column = std::min(static_cast<std::size_t>(columns[lane]), columns_ - 1);
+    result[lane] = strength(row, column) / (4 * std::numbers::pi);
+  }
+  return result;
 }
 
 }  // namespace crt::core

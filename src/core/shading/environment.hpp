@@ -22,10 +22,16 @@ class Environment {
   /// (pi density).
   void sample(const LightNumbers& numbers, LightSamples& light) const;
 
+  /// Returns the densities with which sample() draws directions, by solid angle.
+  Lanes densities(const VectorLanes& directions) const;
+
   /// Returns the bytes of memory that it takes.
   std::size_t bytes() const { return (by_row_.size() + by_column_.size()) * sizeof(double); }
 
  private:
+  /// Returns the probability of a cell over its share of all directions.
+  double strength(std::size_t row, std::size_t column) const;
+
   const PreparedBackground& background_;
   std::size_t rows_;
   std::size_t columns_;

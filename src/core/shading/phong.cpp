@@ -9,7 +9,7 @@ void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, cons
   const VectorLanes& normal = surfaces.normal;
   const Lanes cosine = dot(light.directions, normal);
   const LaneMask before = cosine > 0.0;
-  Lanes strength = surfaces.diffuse * cosine;
+  Lanes strength = light.diffuse_shares * surfaces.diffuse * cosine;
   const LaneMask shines = surfaces.specular > 0.0;
   if (any(lit & before & shines)) {
     const VectorLanes from_light = -light.directions;

@@ -226,6 +226,17 @@ LightMet PreparedLight::meet(const RayLanes& lines) const {
   return kind_ == Kind::sphere ? meet_sphere(lines) : meet_plane(lines);
 }
 
+Lanes PreparedLight::densities(const RayLanes& lines, const Lanes& t) const {
+  LightSamples light;
+  if (kind_ == Kind::environment) return environment_->densities(lines.direction);
+  if (kind_ == Kind::sphere) {
+    sample_ball(lines.origin, {}, light);  // all directions have one density
+    return light.densities();
+  }
+  sample_flat(lines.origin, lines.at(t), light);
+  return light.densities();
+}
+
 LightMet PreparedLight::meet_sphere(const RayLanes& lines) const {
   const VectorLanes to_center = lanes_of(origin_) - lines.origin;
   const Lanes squared_length = dot(lines.direction, lines.direction);

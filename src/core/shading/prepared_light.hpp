@@ -1,6 +1,8 @@
 // Lights are sampled as a point that may be lit sees them.
 #pragma once
 
+#include <numbers>
+
 #include "core/math/vector_lanes.hpp"
 #include "core/ray/plain_ray.hpp"
 #include "core/shading/rgb.hpp"
@@ -25,7 +27,21 @@ struct LightSamples {
   /// projected solid angle over pi, over the density of the sample.
   Lanes intensities{};
   VectorLanes colors;
+  /// This is the share of diffuse light that the samples stand for. Rays that surfaces send on find
+  /// the rest.
+  Lanes diffuse_shares = lanes_of(1);
+
+  /// Returns the densities with which lights that have a size drew these, by solid angle.
+  Lanes densities() const { return 1.0 / (std::numbers::pi * intensities); }
 };
+
+/// Returns the weight of what one of two ways to draw a direction finds: the balance heuristic.
+///
+/// Source: Veach, Guibas, Optimally combining sampling techniques for Monte Carlo rendering, 1995.
+template <class Real>
+Real balanced(const Real& own_density, const Real& other_density) {
+  return own_density / (own_density + other_density);
+}
 
 class Environment;
 
@@ -52,6 +68,8 @@ class PreparedLight {
   bool has_size() const { return has_size_; }
   /// Returns whether meet() ever finds anything.
   bool is_visible() const { return is_visible_; }
+  /// Returns whether rays that surfaces send on find the light, too.
+  bool is_found_by_rays() const { return is_visible_ || kind_ == Kind::environment; }
 
   /// Samples the light at points and returns where it shines. `path_lengths` are the lengths of the
   /// paths from the camera to the points, over all bounces.
@@ -61,6 +79,10 @@ class PreparedLight {
   /// Returns where lines first meet the light's shining side after their origin. t is off by some
   /// roundings of the coordinates.
   LightMet meet(const RayLanes& lines) const;
+
+  /// Returns the densities with which sample() at the origins draws the directions, which are of
+  /// unit length and meet the light at t.
+  Lanes densities(const RayLanes& lines, const Lanes& t) const;
 
  private:
   explicit PreparedLight(const PointLight& light);
