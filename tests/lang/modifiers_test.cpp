@@ -71,7 +71,7 @@ TEST_CASE("light and the camera pass an entity, by modifiers and by attributes")
   CHECK(pixels_of(floor + ball + "visible -> false shadow -> true } <visible (1 < 2)>") == usual);
   // A whole combination may be passed, and groups may.
   const std::string cut =
-      "(" + ball + "} - Box { cornerA -> vec3(0,0,-2) cornerB -> vec3(2,2,2) })";
+      "\n(" + ball + "} - Box { cornerA -> vec3(0,0,-2) cornerB -> vec3(2,2,2) })";
   CHECK(pixels_of(floor + cut + " <visible false, shadow false>") == pixels_of(floor));
   CHECK(pixels_of("two = Macro () { " + ball + "} " + cut + " } " + floor +
                   "two() <visible false, shadow false>") == pixels_of(floor));

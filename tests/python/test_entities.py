@@ -287,7 +287,7 @@ class Materials(unittest.TestCase):
     def test_light_and_the_camera_may_pass_an_entity(self):
         ball = crt.Sphere((0, 0, 0), 1)
         scene = crt.Scene([ball.with_visible(False).with_shadow(False)])
-        scene.settings.set(width=3, height=3, head_light=False)
+        scene.settings.set(width=3, height=3, no_head_light=1)
         scene.background = crt.Background.solid((0.25, 0.5, 0.75))
         np.testing.assert_array_equal(scene.render().pixels[1, 1], [0.25, 0.5, 0.75, 1])
         self.assertEqual(len(scene.prepare().crossings([(0, 0, -5, 0, 0, 1)]).hits), 2)
