@@ -965,8 +965,8 @@ CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entit
 CRT_API crt_status crt_entity_with_user(crt_entity* entity, uint64_t user, crt_entity** out);
 /**
  * Makes the entity as one that casts a shadow, or with 0 one that light passes on its way to what
- * it lights. Mirrors, glass and the camera still show it. The last call holds. It is said of whole
- * entities of a scene: those that were told otherwise than is usual cannot be combined
+ * it lights. Mirrors, glass and the camera still show it. The last call holds. It is of whole
+ * entities of a scene: one that casts no shadow cannot be combined with others
  * (CRT_ERROR_INVALID_ARGUMENT). Since 1.1.
  */
 CRT_API crt_status crt_entity_with_shadow(crt_entity* entity, int32_t casts, crt_entity** out);

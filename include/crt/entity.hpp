@@ -60,14 +60,20 @@ class Entity {
 
   /// Returns this entity as one that casts a shadow or none. Without one, light passes it on its
   /// way to what it lights. Mirrors, glass and the camera still see it. The last call holds. It is
-  /// said of whole entities of a scene: combining one that was told otherwise than is usual throws
-  /// Error (invalid_argument).
+  /// of whole entities of a scene: combining one that casts none with others throws Error
+  /// (invalid_argument).
   Entity with_shadow(bool casts) const;
 
   /// Returns this entity as one that the camera sees or not. If it does not, its rays pass the
   /// entity as if that were not there. Mirrors, glass and shadows still show it, and ray queries
   /// meet it. Otherwise as with_shadow().
   Entity with_visible(bool visible) const;
+
+  /// Says whether it casts a shadow: see with_shadow().
+  bool casts_shadow() const;
+
+  /// Says whether the camera sees it: see with_visible().
+  bool is_visible() const;
 
   /// Says whether it has an inside. It has none if any part of it is a mere surface (Disc,
   /// Triangle, HalfPlane, or a Mesh that is open).

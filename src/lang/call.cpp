@@ -165,9 +165,13 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
          callee_name(call));
   }
   context_.count_made(expression.span);
-  Entity whole = csg_union(parts);
-  context_.check_size(expression.span, whole);
-  return whole;
+  try {
+    Entity whole = csg_union(parts);
+    context_.check_size(expression.span, whole);
+    return whole;
+  } catch (const Error& error) {
+    throw Failure{.span = expression.span, .message = error.what(), .code = error.code()};
+  }
 }
 
 }  // namespace crt::lang

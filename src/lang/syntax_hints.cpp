@@ -58,9 +58,8 @@ std::string_view modifier_hint(std::string_view word) {
     return "; 'matrix' does that: <matrix [[1, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]>";
   if (std::find(looks.begin(), looks.end(), word) != looks.end())
     return "; 'material' takes a Material: <material Material { color -> rgb(1, 0, 0) }>";
-  if (word == "shadows" || word == "no_shadow" || word == "castshadow")
-    return "; 'shadow' takes a Boolean: <shadow false>";
-  if (word == "hidden" || word == "hide" || word == "invisible" || word == "no_image")
+  if (word == "no_shadow") return "; 'shadow' takes a Boolean: <shadow false>";
+  if (word == "hidden" || word == "invisible")
     return "; 'visible' takes a Boolean: <visible false>";
   return "; there are 'scale', 'translate', 'rotate', 'material', 'id', 'matrix', 'shadow' and "
          "'visible'";

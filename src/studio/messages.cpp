@@ -64,6 +64,21 @@ json location_json(const Analysis& analysis, const ScriptLocation& location) {
   return result;
 }
 
+/// Finds what the camera sees along a ray.
+std::optional<Hit> seen_along(const View& view, const Ray& ray) {
+  const std::vector<Entity>& entities = view.original->entities;
+  const auto is_seen = [&](const Hit& hit) {
+    return hit.entity_id >= entities.size() || entities[hit.entity_id].is_visible();
+  };
+  RayQueries queries(view.prepared);
+  std::optional<Hit> hit = queries.intersect(ray);
+  if (!hit || is_seen(*hit)) return hit;
+  std::vector<Hit> hits;
+  queries.crossings(ray, hits);
+  const auto found = std::find_if(hits.begin(), hits.end(), is_seen);
+  return found == hits.end() ? std::nullopt : std::optional(*found);
+}
+
 }  // namespace
 
 json diagnostics_message(const Analysis& analysis) {
@@ -213,9 +228,7 @@ json format_json(const Analysis& analysis) {
 }
 
 json pick_json(const View& view, double x, double y) {
-  const Ray ray = camera_ray(view.prepared, x, y);
-  RayQueries queries(view.prepared);
-  const std::optional<Hit> hit = queries.intersect(ray);
+  const std::optional<Hit> hit = seen_along(view, camera_ray(view.prepared, x, y));
   if (!hit || hit->entity_id >= view.places.size()) return nullptr;
   const EntityPlace& place = view.places[hit->entity_id];
   const TextPlaces places = places_of(view);

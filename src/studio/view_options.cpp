@@ -77,6 +77,18 @@ std::vector<BoundingBox> boxes_of(const Scene& scene) {
   return boxes;
 }
 
+namespace {
+
+/// Cuts an entity. What light or the camera pass they pass afterwards, too.
+Entity cut(const Entity& entity, const Entity& cutter) {
+  if (entity.casts_shadow() && entity.is_visible()) return entity - cutter;
+  return (entity.with_shadow(true).with_visible(true) - cutter)
+      .with_shadow(entity.casts_shadow())
+      .with_visible(entity.is_visible());
+}
+
+}  // namespace
+
 Scene visible_scene(const Scene& scene, const std::vector<EntityPlace>& places,
                     const ViewOptions& options,
                     const std::function<const std::vector<BoundingBox>&()>& boxes) {
@@ -96,7 +108,7 @@ Scene visible_scene(const Scene& scene, const std::vector<EntityPlace>& places,
     if (i < places.size() && hidden.hide(places[i])) continue;
     const Entity& entity = scene.entities[i];
     result.entities.push_back(
-        kept_as_it_is(i) ? entity : (entity - *cutter).with_id(static_cast<std::uint32_t>(i)));
+        kept_as_it_is(i) ? entity : cut(entity, *cutter).with_id(static_cast<std::uint32_t>(i)));
   }
   return result;
 }

@@ -71,7 +71,7 @@ TEST_CASE("light and the camera pass an entity, by modifiers and by attributes")
   CHECK(pixels_of(floor + ball + "visible -> false shadow -> true } <visible (1 < 2)>") == usual);
   // A whole combination may be passed, and groups may.
   const std::string cut =
-      "(" + ball + "} - Box { cornerA -> vec3(0,0,-2) cornerB -> vec3(2,2,2) })";
+      "\n(" + ball + "} - Box { cornerA -> vec3(0,0,-2) cornerB -> vec3(2,2,2) })";
   CHECK(pixels_of(floor + cut + " <visible false, shadow false>") == pixels_of(floor));
   CHECK(pixels_of("two = Macro () { " + ball + "} " + cut + " } " + floor +
                   "two() <visible false, shadow false>") == pixels_of(floor));
@@ -83,13 +83,15 @@ TEST_CASE("light and the camera pass an entity, by modifiers and by attributes")
 TEST_CASE("what light or the camera pass is a whole entity") {
   const auto message = [](const std::string& entities) {
     const crt::test::Run run = crt::test::run("Scene { " + entities + " }");
-    return run.result.diagnostics.empty() ? "" : run.result.diagnostics.front().message;
+    return run.result.diagnostics.empty() ? std::string() : run.result.diagnostics.front().message;
   };
   const std::string ball = "Sphere { center -> vec3(0,0,0) radius -> 1 ";
   CHECK(message(ball + "} - " + ball + "visible -> false }").find("'visible'") !=
         std::string::npos);
   CHECK(message(ball + "shadow -> false } + " + ball + "}").find("give it to the combination") !=
         std::string::npos);
+  CHECK(message("two = Macro () { " + ball + "} " + ball + "visible -> false } } two() <scale 2>")
+            .find("give it to the combination") != std::string::npos);
   CHECK(message(ball + "} <shadow 1>") == "'shadow' takes a Boolean, not an Integer");
   CHECK(message(ball + "visible -> 1 }").find("must be a Boolean") != std::string::npos);
 }

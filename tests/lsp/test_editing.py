@@ -84,7 +84,7 @@ class Completion(ServerTest):
         self.assertLessEqual({"center", "material"}, offered.keys())
         self.assertNotIn("radius", offered)
         offered = self.offered("Scene { Sphere { | radius -> 1 } }\n")
-        self.assertEqual(offered.keys(), {"center", "material"})
+        self.assertEqual(offered.keys(), {"center", "material", "shadow", "visible"})
         self.assertEqual(offered["center"]["detail"], "Vec3, required")
         self.assertIn("default", offered["material"]["detail"])
         self.assertLess(offered["center"]["sortText"], offered["material"]["sortText"])
@@ -101,7 +101,7 @@ class Completion(ServerTest):
 
     def test_an_open_brace_and_nothing_behind_it(self):
         self.assertEqual(self.offered("Scene {\n    Box { |").keys(),
-                         {"cornerA", "cornerB", "material"})
+                         {"cornerA", "cornerB", "material", "shadow", "visible"})
 
     def test_names_in_scope(self):
         offered = self.offered("a = 1\nm = Macro (p) {\n  b = 2\n  |\n}\n"

@@ -158,7 +158,7 @@ class Structs(unittest.TestCase):
                     field = declaration.split()[-1]
                     self.assertIs(thing._enums[field], getattr(crt, named[1]), field)
                     found += 1
-        self.assertEqual(found, 9)
+        self.assertEqual(found, 10)
         self.assertIs(crt.Camera().projection, crt.Projection.PINHOLE)
         self.assertEqual(repr(crt.Settings(precision=99).precision), "99")
 

@@ -289,10 +289,10 @@ class Materials(unittest.TestCase):
     def test_light_and_the_camera_may_pass_an_entity(self):
         ball = crt.Sphere((0, 0, 0), 1)
         scene = crt.Scene([ball.with_visible(False).with_shadow(False)])
-        scene.settings.set(width=3, height=3, head_light=False)
-        scene.background = crt.Background.solid((0.25, 0.5, 0.75))
+        scene.settings.set(width=3, height=3, no_head_light=1)
+        scene.background = crt.Background(color=(0.25, 0.5, 0.75))
         np.testing.assert_array_equal(scene.render().pixels[1, 1], [0.25, 0.5, 0.75, 1])
-        self.assertEqual(len(scene.prepare().crossings([(0, 0, -5, 0, 0, 1)]).hits), 2)
+        self.assertEqual(len(scene.prepare().crossings(crt.ray((0, 0, -5), (0, 0, 1)))), 2)
         with self.assertRaisesRegex(crt.Error, "'visible' false, which is of whole entities"):
             ball - ball.with_visible(False)
         with self.assertRaisesRegex(TypeError, "with_shadow: casts must be True or False, not 1"):

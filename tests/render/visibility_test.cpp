@@ -1,7 +1,7 @@
 // These tests check entities that light passes, and such as the camera does not see. Pictures are
 // compared with those of scenes without the entity.
-#include <crt/query.hpp>
 #include <doctest/doctest.h>
+#include <crt/query.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -23,8 +23,8 @@ std::vector<Entity> varied_entities(const Material& material) {
   const Entity ball = Sphere{.center = {0, 0, 0}, .radius = 0.6};
   const Entity cut = Box{.corner_a = {-0.5, -0.5, -0.5}, .corner_b = {0.5, 0.5, 0.5}} -
                      Sphere{.center = {0.3, 0.3, -0.5}, .radius = 0.4};
-  const Entity ring = Torus{.center = {0, 0, 0}, .axis = {0.3, 1, -0.5}, .radius = 0.5,
-                            .thickness = 0.2};
+  const Entity ring =
+      Torus{.center = {0, 0, 0}, .axis = {0.3, 1, -0.5}, .radius = 0.5, .thickness = 0.2};
   const Entity pair = Entity(Sphere{.center = {-0.5, 0, 0}, .radius = 0.3}) +
                       Sphere{.center = {0.5, 0, 0}, .radius = 0.3};
   const Entity lying = Entity(Cylinder{.from = {-0.5, 0, 0}, .to = {0.5, 0.2, 0}, .radius = 0.3})
@@ -44,8 +44,8 @@ std::vector<Entity> field(int side, const Material& material, const Mark& mark) 
   for (int i = 0; i < side * side; ++i) {
     const Vec3 place(1.3 * (i % side) - 0.65 * (side - 1), 1.3 * (i / side) - 0.65 * (side - 1),
                      0.1 * (i % 7));
-    const Entity entity = kinds[static_cast<std::size_t>(i) % kinds.size()].transformed(
-        translate(place));
+    const Entity entity =
+        kinds[static_cast<std::size_t>(i) % kinds.size()].transformed(translate(place));
     if (i % 3 != 1) {
       entities.push_back(entity);
     } else {
@@ -94,9 +94,9 @@ TEST_CASE("the camera sees through what it does not see, of any kind, in scenes 
         }
         CHECK(same_pixels(render(prepare(with)), render(prepare(without))));
         // There is something to be passed.
-        Scene usual = scene_from(field(side, material, [](auto& list, const Entity& entity) {
-                                   list.push_back(entity);
-                                 }), side);
+        Scene usual = scene_from(
+            field(side, material, [](auto& list, const Entity& entity) { list.push_back(entity); }),
+            side);
         usual.lights = with.lights;
         usual.settings = with.settings;
         CHECK_FALSE(same_pixels(render(prepare(usual)), render(prepare(without))));
@@ -126,12 +126,10 @@ TEST_CASE("a mirror and a shadow show what the camera does not see") {
   Scene scene = dark_scene();
   scene.lights = {ParallelLight{.from = {0, 10, 0}, .pointing = {0, 0, 0}}};
   scene.background = SolidBackground{{0, 0, 1}};
-  const Entity red = Sphere{.center = {0, 2, 0},
-                            .radius = 0.5,
-                            .material = Material{.color = Color{1, 0, 0}}};
+  const Entity red =
+      Sphere{.center = {0, 2, 0}, .radius = 0.5, .material = Material{.color = Color{1, 0, 0}}};
   const Entity floor = Plane{.material = Material{.color = grey(1)}};
-  const Entity mirror = Plane{
-      .normal = {0, 0, -1}, .position = {0, 0, 5}, .material = inert(1)};
+  const Entity mirror = Plane{.normal = {0, 0, -1}, .position = {0, 0, 5}, .material = inert(1)};
   scene.entities = {red.with_visible(false), floor, mirror};
   // It is not in front of the mirror, in which it is seen from behind.
   const Color in_mirror = seen(scene, {0, 2, -1}, {0, 2, 5});
@@ -143,7 +141,8 @@ TEST_CASE("a mirror and a shadow show what the camera does not see") {
   CHECK(seen(scene, {0, 0.5, -1}, {2, 0, 0}).r == doctest::Approx(1).epsilon(float_precision));
   scene.entities[0] = red.with_visible(false).with_shadow(false);
   CHECK(seen(scene, {0, 0.5, -1}, {0, 0, 0}).r == doctest::Approx(1).epsilon(float_precision));
-  scene.entities[0] = red.with_shadow(false).with_shadow(true).with_visible(false).with_visible(true);
+  scene.entities[0] =
+      red.with_shadow(false).with_shadow(true).with_visible(false).with_visible(true);
   CHECK(seen(scene, {0, 0.5, -1}, {0, 0, 0}).r == 0);
   CHECK(seen(scene, {0, 2.2, -1}, {0, 2.2, 0}).r > 0.1);
 }
@@ -168,12 +167,11 @@ TEST_CASE("beside what casts no shadow all is lit as if it were not there") {
       for (const Precision precision : {Precision::standard, Precision::exact}) {
         Scene with = scene_from(field(side, material, shadowless), side);
         Scene without = scene_from(field(side, material, leave_out), side);
-        Scene usual = scene_from(field(side, material, [](auto& list, const Entity& entity) {
-                                   list.push_back(entity);
-                                 }), side);
-        const Entity wall = Plane{.normal = {0, 0, -1},
-                                  .position = {0, 0, 2},
-                                  .material = Material{.color = grey(0.9)}};
+        Scene usual = scene_from(
+            field(side, material, [](auto& list, const Entity& entity) { list.push_back(entity); }),
+            side);
+        const Entity wall = Plane{
+            .normal = {0, 0, -1}, .position = {0, 0, 2}, .material = Material{.color = grey(0.9)}};
         for (Scene* const scene : {&with, &without, &usual}) {
           scene->lights = {PointLight{.origin = {3, 5, -9}}};
           scene->settings.precision = precision;
@@ -200,15 +198,14 @@ TEST_CASE("beside what casts no shadow all is lit as if it were not there") {
 TEST_CASE("the camera's rays take nothing from media that it does not see") {
   Scene scene = dark_scene();
   scene.background = SolidBackground{{1, 1, 1}};
-  const Entity block =
-      Box{.corner_a = {-9, -9, -2}, .corner_b = {9, 9, 2}, .material = clear(0.5)};
+  const Entity block = Box{.corner_a = {-9, -9, -2}, .corner_b = {9, 9, 2}, .material = clear(0.5)};
   scene.entities = {block.with_visible(false)};
   CHECK(seen(scene, {0, 0, -5}, {0, 0, 0}).r == doctest::Approx(1).epsilon(float_precision));
   // It is so from within, too.
   CHECK(seen(scene, {0, 0, 0}, {0, 0, 5}).r == doctest::Approx(1).epsilon(float_precision));
   // Mirrored rays are within the medium, from where they begin.
-  const Entity mirror = Disc{
-      .center = {0, 0, 0.5}, .normal = {0, 0, -1}, .radius = 3, .material = inert(1)};
+  const Entity mirror =
+      Disc{.center = {0, 0, 0.5}, .normal = {0, 0, -1}, .radius = 3, .material = inert(1)};
   scene.entities.push_back(mirror);
   const double left = std::exp(-0.5 * 2.5);
   CHECK(seen(scene, {0, 0, -5}, {0, 0, 0}).r == doctest::Approx(left).epsilon(float_precision));
@@ -226,8 +223,7 @@ TEST_CASE("light takes nothing from media that cast no shadow, wherever it begin
                            .normal = {0, 0, -1},
                            .radius = 3,
                            .material = Material{.color = grey(1)}};
-  const Entity block =
-      Box{.corner_a = {-9, -9, -2}, .corner_b = {9, 9, 2}, .material = clear(0.5)};
+  const Entity block = Box{.corner_a = {-9, -9, -2}, .corner_b = {9, 9, 2}, .material = clear(0.5)};
   scene.entities = {wall, block.with_shadow(false)};
   // The camera's ray is within the medium for 2, the light for 3.
   CHECK(seen(scene, {0, 0, -1}, {0, 0, 1}).r ==
@@ -241,8 +237,8 @@ TEST_CASE("of surfaces at one place the camera sees those that it can") {
   Scene scene = dark_scene();
   scene.lights = {glow(1)};
   const Box box{.corner_a = {-1, -1, 0}, .corner_b = {1, 1, 1}};
-  const Entity dim = Entity(box).with_material(
-      Material{.color = grey(1), .reflectivity = 0.75, .diffuse = 0});
+  const Entity dim =
+      Entity(box).with_material(Material{.color = grey(1), .reflectivity = 0.75, .diffuse = 0});
   const Entity bright = Entity(box).with_material(inert());
   const Entity plane = Plane{.normal = {0, 0, -1}, .material = inert()};
   for (const Precision precision : {Precision::standard, Precision::exact}) {
@@ -321,6 +317,10 @@ TEST_CASE("parts of a combination cannot be unseen or without a shadow, but the 
     CHECK(refuses([&] { return a + marked(b).transformed(translate({1, 0, 0})); }));
     CHECK_NOTHROW(marked(a - b).with_id(3).transformed(scale(2)));
     CHECK_NOTHROW(a - (is_shadow ? marked(b).with_shadow(true) : marked(b).with_visible(true)));
+    CHECK(marked(a - b).casts_shadow() == !is_shadow);
+    CHECK(marked(a).transformed(scale(2)).is_visible() == is_shadow);
+    CHECK(a.casts_shadow());
+    CHECK((a - b).is_visible());
     CHECK(marked(empty_entity()).is_empty());
     CHECK_NOTHROW(a + marked(empty_entity()));
     const Entity alone = marked(a);

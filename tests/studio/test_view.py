@@ -139,6 +139,29 @@ class View(OpenedFolder):
         self.assertEqual(self.at(pixels, RIGHT), self.at(self.picture, CORNER))
         self.assertEqual(self.show(), self.picture)
 
+    def test_exposure_and_tone_map_are_those_of_files(self):
+        text = SCENE.replace(
+            "supersampling -> 2", 'supersampling -> 2 exposure -> 1.5 tonemap -> "filmic"'
+        )
+        self.client.set_text(text)
+        pixels, _ = self.whole()
+        self.assertNotEqual(pixels, self.picture)
+        script, file = self.folder / "toned.crt", self.folder / "toned.ppm"
+        script.write_text(text)
+        subprocess.run([COMMAND, "render", "--quiet", script, "-o", file], check=True)
+        shown = bytes(byte for i, byte in enumerate(pixels) if i % 4 < 3)
+        self.assertEqual(shown, file.read_bytes()[-3 * WIDTH * HEIGHT :])
+
+    def test_what_the_camera_does_not_see_is_not_picked_and_may_be_cut(self):
+        front = "Box { cornerA -> vec3(-9, -9, -2) cornerB -> vec3(9, 9, -1) visible -> false }"
+        self.client.set_text(SCENE.replace("    ball(-1)\n", f"    {front}\n    ball(-1)\n"))
+        pixels, _ = self.whole()
+        self.assertEqual(self.at(pixels, CORNER), self.at(self.picture, CORNER))
+        self.assertEqual(self.client.pick(*LEFT)["entity"], 1)
+        self.assertIsNone(self.client.pick(*CORNER))
+        pixels = self.show(section={"axis": 0, "offset": 0.0, "isFlipped": False})
+        self.assertEqual(self.at(pixels, RIGHT), self.at(self.picture, CORNER))
+
     def test_only_the_region_is_refined(self):
         self.client.send(
             type="view", view={**ALL, "region": {"x": 10, "y": 8, "width": 40, "height": 300}}

@@ -60,3 +60,20 @@ TEST_CASE("what comes from a statement that one of many spans encloses is hidden
     CHECK(numbers == left);
   }
 }
+
+TEST_CASE("a section cuts what light or the camera pass, which they then pass still") {
+  Scene scene;
+  const Entity ball = Sphere{};
+  scene.entities = {ball, ball.with_shadow(false), ball.with_visible(false).with_shadow(false)};
+  ViewOptions options;
+  options.section = SectionPlane{.axis = 0, .offset = 0.5, .is_flipped = false};
+  const std::vector<BoundingBox> boxes = boxes_of(scene);
+  const Scene shown =
+      visible_scene(scene, {}, options, [&]() -> const std::vector<BoundingBox>& { return boxes; });
+  REQUIRE(shown.entities.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(shown.entities[i].casts_shadow() == scene.entities[i].casts_shadow());
+    CHECK(shown.entities[i].is_visible() == scene.entities[i].is_visible());
+    CHECK(shown.entities[i].primitive_count() == 2);
+  }
+}

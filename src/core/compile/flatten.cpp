@@ -16,11 +16,9 @@ namespace crt::core {
 
 namespace {
 
-PassingRays kinds_that_pass(const EntityNode& entity) {
-  const auto* wrapper = std::get_if<EntityWrapper>(&entity.content);
-  if (wrapper == nullptr) return passing_none;
-  return static_cast<PassingRays>((wrapper->visible ? passing_none : passing_camera) |
-                                  (wrapper->casts_shadow ? passing_none : passing_shadow));
+PassingRays kinds_that_pass(const Entity& entity) {
+  return static_cast<PassingRays>((entity.is_visible() ? passing_none : passing_camera) |
+                                  (entity.casts_shadow() ? passing_none : passing_shadow));
 }
 
 class Flattening {
@@ -98,7 +96,7 @@ FlatScene Flattening::flatten(std::span<const Entity> entities, const PrimitiveL
     if (entities[i].is_empty()) continue;
     const auto place = static_cast<std::uint32_t>(i);
     const Part part{.node = &entities[i].node(), .id = place, .part_id = place};
-    passed_by_ = kinds_that_pass(*part.node);
+    passed_by_ = kinds_that_pass(entities[i]);
     add_entity(part.unwrapped(result_.transforms), limit);
   }
   return std::move(result_);

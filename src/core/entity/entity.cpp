@@ -41,10 +41,9 @@ void require_solid(const Entity& entity, const char* operation) {
 }
 
 /// Refuses a part that light or the camera are to pass, as they could not tell it from the others.
-void require_usual_rays(const EntityNode& part) {
-  const auto* wrapper = std::get_if<EntityWrapper>(&part.content);
-  if (wrapper == nullptr || (wrapper->casts_shadow && wrapper->visible)) return;
-  const std::string name = wrapper->visible ? "shadow" : "visible";
+void require_usual_rays(const Entity& part) {
+  if (part.casts_shadow() && part.is_visible()) return;
+  const std::string name = part.is_visible() ? "shadow" : "visible";
   throw Error(ErrorCode::invalid_argument,
               "a part of a combination has '" + name +
                   "' false, which is of whole entities: give it to the combination instead",
@@ -60,7 +59,7 @@ Entity combine(CsgOperator op, std::span<const Entity> parts) {
     if (!part.is_empty()) operation.parts.push_back(part.shared_node());
   }
   if (operation.parts.size() == 1) return Entity(std::move(operation.parts.front()));
-  for (const EntityPointer& part : operation.parts) require_usual_rays(*part);
+  for (const EntityPointer& part : operation.parts) require_usual_rays(Entity(part));
   return make_entity(std::move(operation));
 }
 
@@ -223,6 +222,16 @@ Entity Entity::with_visible(bool visible) const {
   EntityWrapper wrapper = wrapper_of(*this);
   wrapper.visible = visible;
   return make_entity(std::move(wrapper));
+}
+
+bool Entity::casts_shadow() const {
+  const auto* wrapper = std::get_if<EntityWrapper>(&node_->content);
+  return wrapper == nullptr || wrapper->casts_shadow;
+}
+
+bool Entity::is_visible() const {
+  const auto* wrapper = std::get_if<EntityWrapper>(&node_->content);
+  return wrapper == nullptr || wrapper->visible;
 }
 
 bool Entity::is_solid() const {

@@ -7,7 +7,7 @@
 // is white from 10 on, which is 5.8 stops above that.
 //
 // Each channel has the curve for itself. So bright saturated colours turn pale, as on film. And an
-// interval of a channel's light becomes an interval of what is shown, which claims of accuracy need.
+// interval of a channel's light becomes one of what is shown, which claims of accuracy need.
 #pragma once
 
 #include "core/math/lanes.hpp"
@@ -41,10 +41,9 @@ class ToneCurve {
   static Real filmic(const Real& light) {
     constexpr double scale_to_keep_grey = 0.7231708051011695;
     constexpr double white_beyond_doubt = 0x1p20;  // its square is far from infinity
-    const Real x = select(light > 0.0,
-                          min(Real(light * scale_to_keep_grey),
-                              broadcast<Real>(white_beyond_doubt)),
-                          Real{});
+    const Real x =
+        select(light > 0.0,
+               min(Real(light * scale_to_keep_grey), broadcast<Real>(white_beyond_doubt)), Real{});
     return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
   }
 
