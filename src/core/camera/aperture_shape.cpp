@@ -51,19 +51,6 @@ LensPoint polygon_point(const std::array<LensPoint, sides>& corners, double u, d
   return {outwards * (a.x + v * (b.x - a.x)), outwards * (a.y + v * (b.y - a.y))};
 }
 
-/// Computes circle_point() for a point or for lanes.
-template <class Real>
-PlanePointOf<Real> point_of_disc(const Real& u, const Real& v) {
-  const Real x = 2.0 * u - 1.0;
-  const Real y = 2.0 * v - 1.0;
-  const auto beside = abs(x) > abs(y);
-  const Real radius = select(beside, x, y);
-  const Real across = select(beside, y, x);
-  const auto [sine, cosine] =
-      of_eighth_turns(across / select(radius == 0.0, broadcast<Real>(1), radius));
-  return {radius * select(beside, cosine, sine), radius * select(beside, sine, cosine)};
-}
-
 }  // namespace
 
 LensPoint circle_point(double u, double v) {
