@@ -207,7 +207,8 @@ void SharesTable::set_means() {
 }
 
 LayerTables::LayerTables(const Layers& layers)
-    : sides_{SharesTable(layers.index_behind), SharesTable(1 / layers.index_behind)} {
+    : transmits_(layers.transmits),
+      sides_{SharesTable(layers.index_behind), SharesTable(1 / layers.index_behind)} {
   const bool is_pattern = layers.roughness < 0;
   for (SharesTable& side : sides_) side.rows_.resize(is_pattern ? SharesTable::all_rows : 1);
   set_below_layers(layers);
@@ -215,7 +216,7 @@ LayerTables::LayerTables(const Layers& layers)
     const double roughness = is_pattern
                                  ? static_cast<double>(row) / double{SharesTable::all_rows - 1}
                                  : layers.roughness;
-    for (std::size_t side = 0; side < sides_.size(); ++side)
+    for (std::size_t side = 0; side < (transmits_ ? sides_.size() : 1); ++side)
       set_leftovers(layers, side, roughness, row);
   }
   for (SharesTable& side : sides_) side.set_means();
@@ -236,11 +237,23 @@ void LayerTables::set_below_layers(const Layers& layers) {
     for (auto& row : sides_[0].rows_) {
       row.shares[entry].below_sheen = 1 - sheen;
       row.shares[entry].below_coat = (1 - sheen) * (1 - coat);
+      row.shares[entry].above = sheen;
     }
     for (auto& row : sides_[1].rows_) {
       row.shares[entry].below_sheen = 1;
       row.shares[entry].below_coat = 1;
     }
+  }
+  if (layers.coat == 0) return;
+  const SharesTable& table = sides_[0];
+  for (std::size_t entry = 0; entry <= SharesTable::intervals; ++entry) {
+    const VectorLanes o = direction_at(std::max(lowest_cosine, table.cosine_of(entry)));
+    const double mirrored =
+        coat_albedo(circle, o, layers.coat_roughness, [&](const Lanes& cosines) {
+          return share_at(table, &LayerShares<double>::below_sheen, cosines, 0);
+        });
+    for (auto& row : sides_[0].rows_)
+      row.shares[entry].above += row.shares[entry].below_sheen * layers.coat * mirrored;
   }
 }
 
@@ -252,7 +265,6 @@ void LayerTables::set_leftovers(const Layers& layers, std::size_t side, double r
   const SharesTable& before = sides_[side];
   const SharesTable& behind = sides_[1 - side];
   const bool has_layers = layers.coat > 0 || layers.sheen > 0;
-  const bool has_coat = side == 0 && layers.coat > 0;
   const double index = side == 0 ? layers.index_behind : 1 / layers.index_behind;
   const bool is_going_straight = is_straight<double>(index);
   const Microfacets<Lanes> facets = {lanes_of(width_of<double>(roughness))};
@@ -269,6 +281,7 @@ void LayerTables::set_leftovers(const Layers& layers, std::size_t side, double r
       const auto [glass, refracted] = refract<Lanes>(-o, h, lanes_of(1), lanes_of(index));
       metal += mirrored;
       dielectric += glass * mirrored;
+      if (!transmits_) return;
       const VectorLanes on = is_going_straight ? -o : refracted;
       const Lanes seen = is_going_straight ? lanes_of(1) : facets.seen(on);
       const Lanes let_through = (1.0 - glass) * seen * below(behind, Lanes(-on.z));
@@ -276,13 +289,6 @@ void LayerTables::set_leftovers(const Layers& layers, std::size_t side, double r
     });
 
     Shares& shares = sides_[side].rows_[row].shares[entry];
-    shares.above = 1 - shares.below_sheen;
-    if (has_coat) {
-      shares.above += shares.below_sheen * layers.coat *
-                      coat_albedo(circle, o, layers.coat_roughness, [&](const Lanes& cosines) {
-                        return share_at(before, &Shares::below_sheen, cosines, roughness);
-                      });
-    }
     const auto left = [&](double albedo) {
       return std::max(0.0, 1 - shares.above - shares.below_coat * albedo);
     };

@@ -39,6 +39,8 @@ struct Layers {
   double coat = 0;
   double coat_roughness = 0;
   double sheen = 0;
+  /// Some light gets through. Otherwise both sides of the surface are alike.
+  bool transmits = true;
   /// The roughness of the surface below, or below 0 for all there are: it is a pattern.
   double roughness = 0;
 
@@ -89,12 +91,13 @@ class LayerTables {
 
   /// Returns the table of the side that has sheen and coat.
   const SharesTable& outside() const { return sides_[0]; }
-  const SharesTable& inside() const { return sides_[1]; }
+  const SharesTable& inside() const { return transmits_ ? sides_[1] : sides_[0]; }
 
  private:
   void set_below_layers(const Layers& layers);
   void set_leftovers(const Layers& layers, std::size_t side, double roughness, std::size_t row);
 
+  bool transmits_;
   std::array<SharesTable, 2> sides_;
 };
 
