@@ -14,9 +14,9 @@ using Share = std::variant<double, Pattern>;
 /// mixture of a metal and a dielectric, whose energy is kept. A white one sends back all light.
 /// Numbers are without unit where nothing else is said.
 struct PrincipledMaterial {
-  /// The base colour is one everywhere, or a pattern. It is what a dielectric scatters, what a metal
-  /// mirrors straight on, and what is left of light that a surface lets through. Channels are at
-  /// least 0; above 1 more light leaves than comes. Alpha is in [0, 1].
+  /// The base colour is one everywhere, or a pattern. It is what a dielectric scatters, what a
+  /// metal mirrors straight on, and what is left of light that a surface lets through. Channels are
+  /// at least 0; above 1 more light leaves than comes. Alpha is in [0, 1].
   std::variant<Color, Pattern> color = grey(0.8);
   /// This is the share of the surface that is a metal, in [0, 1].
   Share metallic = 0.0;
@@ -38,6 +38,9 @@ struct PrincipledMaterial {
   double sheen = 0;
   /// This is the radiance that the surface gives off, as a colour or a pattern, >= 0.
   std::variant<Color, Pattern> emission = grey(0);
+  /// Tilts the normal by its colours: red is along u, green along v and blue out of the surface,
+  /// each from -1 at 0 to 1 at 1. Pictures count as they are, without the gamma of displays.
+  std::optional<Pattern> normal_map{};
   /// Tilts the normal as if the surface were raised by the luminance of this pattern times
   /// `bump_height`.
   std::optional<Pattern> bump{};

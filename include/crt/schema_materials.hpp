@@ -61,6 +61,8 @@ inline constexpr auto table<PrincipledMaterial> = Table{
     field("sheen", &PrincipledMaterial::sheen, share, {}, "strength of cloth's sheen, 0 to 1"),
     field("emission", &PrincipledMaterial::emission, brightness, {.map = "emission_map"},
           "the light that it gives off"),
+    field("normal_map", &PrincipledMaterial::normal_map, any, {},
+          "tilts the surface by this pattern's colours, see below"),
     field("bump", &PrincipledMaterial::bump, any, {},
           "the surface seems raised by this pattern's brightness"),
     field("bump_height", &PrincipledMaterial::bump_height, between(-largest_length, largest_length),

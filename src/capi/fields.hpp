@@ -130,8 +130,8 @@ void take_fields(Struct& object, const C& given, const char* name) {
   });
 }
 
-/// Reads the patterns of a struct of C++ from one of C: those that stand in the place of a colour or
-/// a number, and others.
+/// Reads the patterns of a struct of C++ from one of C: those that stand in the place of a colour
+/// or a number, and others.
 template <class Struct, class C>
 void take_patterns(Struct& object, const C& given, const char* name) {
   const auto pattern_in = [&](std::string_view field) -> std::optional<Pattern> {
@@ -144,7 +144,7 @@ void take_patterns(Struct& object, const C& given, const char* name) {
     using Value = typename Row::Value;
     if constexpr (std::is_same_v<Value, std::optional<Pattern>>) {
       object.*row.member = pattern_in(row.c_name());
-    } else if constexpr (requires(Value& value, Pattern pattern) { value = pattern; }) {
+    } else if constexpr (requires(Value & value, Pattern pattern) { value = pattern; }) {
       if (std::optional<Pattern> pattern = pattern_in(row.uses.map))
         object.*row.member = std::move(*pattern);
     }

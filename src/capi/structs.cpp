@@ -38,15 +38,12 @@ template <>
 std::span<const CField> c_fields<crt_principled>() {
   using S = crt_principled;
   static constexpr std::array fields = {
-      CRT_FIELD(S, reserved),         CRT_FIELD(S, color),
-      CRT_FIELD(S, pattern),          CRT_FIELD(S, metallic),
-      CRT_FIELD(S, roughness),        CRT_FIELD(S, refractive_index),
-      CRT_FIELD(S, transmission),     CRT_FIELD(S, absorption),
-      CRT_FIELD(S, coat),             CRT_FIELD(S, coat_roughness),
-      CRT_FIELD(S, sheen),            CRT_FIELD(S, emission),
-      CRT_FIELD(S, metallic_map),     CRT_FIELD(S, roughness_map),
-      CRT_FIELD(S, emission_map),     CRT_FIELD(S, bump),
-      CRT_FIELD(S, normal_map),       CRT_FIELD(S, bump_height)};
+      CRT_FIELD(S, reserved),       CRT_FIELD(S, color),         CRT_FIELD(S, pattern),
+      CRT_FIELD(S, metallic),       CRT_FIELD(S, roughness),     CRT_FIELD(S, refractive_index),
+      CRT_FIELD(S, transmission),   CRT_FIELD(S, absorption),    CRT_FIELD(S, coat),
+      CRT_FIELD(S, coat_roughness), CRT_FIELD(S, sheen),         CRT_FIELD(S, emission),
+      CRT_FIELD(S, metallic_map),   CRT_FIELD(S, roughness_map), CRT_FIELD(S, emission_map),
+      CRT_FIELD(S, bump),           CRT_FIELD(S, normal_map),    CRT_FIELD(S, bump_height)};
   return fields;
 }
 

@@ -229,6 +229,9 @@ postfix:
   | "[ first on its line" nest items "]"     { $$ = tree.expression(@$, ListLiteral{$3}); }
   | OBJECT_NAME "{" nest attributes "}"
                                    { $$ = tree.expression(@$, ObjectLiteral{{$1, @1}, $4}); }
+  | IDENTIFIER "{" nest attributes "}"
+                                   { $$ = tree.expression(@$,
+                                       DerivedMaterial{tree.expression(@1, Name{$1}), $4}); }
   | "Macro" open parameters_or_none ")" block
                                              { $$ = tree.macro(@$, $3, $5); }
   | postfix "[" nest expression "]"          { $$ = tree.expression(@$, Index{$1, $4}); }

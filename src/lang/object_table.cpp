@@ -92,8 +92,7 @@ void warn_of_bright_colors(const ObjectSite& site) {
   for (const Given& given : site.attributes) {
     const auto* color = std::get_if<Color>(&given.value);
     const bool is_share = given.type->name != "absorption" && given.type->name != "emission";
-    if (color == nullptr || !is_share || std::max({color->r, color->g, color->b}) <= 1)
-      continue;
+    if (color == nullptr || !is_share || std::max({color->r, color->g, color->b}) <= 1) continue;
     site.context.reporter.warning(
         given.value_span,
         text::format("'{}' is brighter than white: the components of a surface's colour are shares "

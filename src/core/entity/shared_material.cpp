@@ -1,5 +1,5 @@
-// Materials are shared by entities. A principled one has a stand-in of the simpler kind, for whoever
-// knows that alone.
+// Materials are shared by entities. A principled one has a stand-in of the simpler kind, for
+// whoever knows that alone.
 #include <algorithm>
 
 #include "crt/material.hpp"

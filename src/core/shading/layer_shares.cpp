@@ -298,10 +298,24 @@ void LayerTables::set_leftovers(const Layers& layers, std::size_t side, double r
   }
 }
 
+std::size_t LayerTables::bytes() const {
+  return sizeof *this + sides_.size() * sides_[0].rows_.capacity() * sizeof sides_[0].rows_[0];
+}
+
 std::shared_ptr<const LayerTables> LayerTablePool::get(const Layers& layers) {
   std::shared_ptr<const LayerTables>& tables = tables_[layers];
+  if (!tables && earlier_ != nullptr) {
+    const auto found = earlier_->tables_.find(layers);
+    if (found != earlier_->tables_.end()) tables = found->second;
+  }
   if (!tables) tables = std::make_shared<const LayerTables>(layers);
   return tables;
+}
+
+std::size_t LayerTablePool::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& [layers, tables] : tables_) sum += tables->bytes();
+  return sum;
 }
 
 }  // namespace crt::core

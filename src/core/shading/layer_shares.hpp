@@ -93,6 +93,9 @@ class LayerTables {
   const SharesTable& outside() const { return sides_[0]; }
   const SharesTable& inside() const { return transmits_ ? sides_[1] : sides_[0]; }
 
+  /// Returns the bytes of memory that they take.
+  std::size_t bytes() const;
+
  private:
   void set_below_layers(const Layers& layers);
   void set_leftovers(const Layers& layers, std::size_t side, double roughness, std::size_t row);
@@ -104,9 +107,17 @@ class LayerTables {
 /// A LayerTablePool has the tables of one scene, so that equal layers are computed once.
 class LayerTablePool {
  public:
+  /// Until settle() is called, tables that are asked for are taken over from another pool, which
+  /// may be null.
+  explicit LayerTablePool(const LayerTablePool* earlier = nullptr) : earlier_(earlier) {}
+  void settle() { earlier_ = nullptr; }
+
   std::shared_ptr<const LayerTables> get(const Layers& layers);
+  /// Returns the bytes of memory of all its tables.
+  std::size_t bytes() const;
 
  private:
+  const LayerTablePool* earlier_;
   std::map<Layers, std::shared_ptr<const LayerTables>> tables_;
 };
 
