@@ -88,6 +88,8 @@ std::string default_text(const Value& value) {
     return text_of_default(std::string(schema::script_name_of(value)));
   } else if constexpr (std::is_same_v<Value, std::variant<Color, Pattern>>) {
     return text_of_default(std::get<Color>(value));
+  } else if constexpr (std::is_same_v<Value, Share>) {
+    return text_of_default(std::get<double>(value));
   } else if constexpr (requires { text_of_default(value); }) {
     return text_of_default(value);
   } else {

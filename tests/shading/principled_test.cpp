@@ -212,7 +212,7 @@ TEST_CASE("light takes the same path back") {
   }
 }
 
-TEST_CASE("samples are as dense as is told, and their weights add up to what is scattered") {
+TEST_CASE("samples have the density of evaluate(), and weights that add up to what is scattered") {
   for (const Surface& surface : rough_surfaces()) {
     for (const bool from_outside : {true, false}) {
       const PrincipledSurface<double> seen = surface.seen(from_outside);
@@ -259,7 +259,7 @@ TEST_CASE("samples are as dense as is told, and their weights add up to what is 
   }
 }
 
-TEST_CASE("a sample has the weight and the density that its direction is told to have") {
+TEST_CASE("a sample has the weight and the density that evaluate() has for its direction") {
   for (const Surface& surface : rough_surfaces()) {
     const PrincipledSurface<double> seen = surface.seen(true);
     const Vec3 normal = glm::normalize(Vec3(1, -2, 0.5));
