@@ -283,7 +283,38 @@ typedef struct crt_material {
   double absorption[3]; /**< inside, per scene unit and channel (Beer-Lambert), >= 0; default 0 */
   const crt_pattern* bump; /**< its luminance raises the surface; default NULL */
   double bump_height;      /**< scene units; default 0.1 */
+  /** Is the radiance that the surface gives off, linear RGB, each in [0, 1e30]; default 0. Since
+   * 1.1. */
+  double emission[3];
 } crt_material;
+
+/** Describes what a surface is made of, in the words of glTF, OpenPBR and Blender: a mixture of a
+ * metal and a dielectric. A white one sends back all light. Since 1.1. */
+typedef struct crt_principled {
+  uint32_t struct_size;
+  int32_t reserved;           /**< 0 */
+  double color[3];            /**< what is scattered, mirrored by metal or let through: linear RGB,
+                                 each in [0, 1e30]; default 0.8 */
+  const crt_pattern* pattern; /**< takes the place of the colour; default NULL */
+  double metallic;            /**< share that is a metal, in [0, 1]; default 0 */
+  double roughness;           /**< 0 for a mirror or clear glass, to 1; default 0.5 */
+  double refractive_index;    /**< of the inside, in [0.01, 100]; default 1.5 */
+  double transmission;        /**< share of what is no metal that lets light through, in [0, 1];
+                                 default 0 */
+  double absorption[3];  /**< inside, per scene unit and channel (Beer-Lambert), >= 0; default 0 */
+  double coat;           /**< strength of a clear varnish on top, in [0, 1]; default 0 */
+  double coat_roughness; /**< in [0, 1]; default 0 */
+  double sheen;          /**< strength of the sheen of cloth, in [0, 1]; default 0 */
+  double emission[3];    /**< radiance given off, linear RGB, each in [0, 1e30]; default 0 */
+  const crt_pattern* metallic_map;  /**< its luminance takes the place of metallic; default NULL */
+  const crt_pattern* roughness_map; /**< and that of roughness */
+  const crt_pattern* emission_map;  /**< takes the place of emission; default NULL */
+  const crt_pattern* bump;          /**< its luminance raises the surface; default NULL */
+  /** Tilts the normal by its colours, from -1 at 0 to 1 at 1: red along u, green along v, blue out
+   * of the surface. Pictures count as they are, without the gamma of displays. Default NULL. */
+  const crt_pattern* normal_map;
+  double bump_height; /**< scene units; default 0.1 */
+} crt_principled;
 
 /** Lists the kinds of lights. All cast shadows. */
 typedef enum crt_light_type {
@@ -490,6 +521,8 @@ CRT_API crt_status crt_pattern_init(crt_pattern* pattern, size_t struct_size);
 CRT_API crt_status crt_pattern_init_type(crt_pattern* pattern, size_t struct_size, int32_t type);
 /** Fills in a matt grey. */
 CRT_API crt_status crt_material_init(crt_material* material, size_t struct_size);
+/** Since 1.1. */
+CRT_API crt_status crt_principled_init(crt_principled* material, size_t struct_size);
 /** Fills in a white point light at the origin. */
 CRT_API crt_status crt_light_init(crt_light* light, size_t struct_size);
 /**
@@ -952,6 +985,9 @@ CRT_API crt_status crt_entity_with_transform(crt_entity* entity, const double af
  */
 CRT_API crt_status crt_entity_with_material(crt_entity* entity, const crt_material* material,
                                             crt_entity** out);
+/** Does so with a principled material. Threads: any thread. Since 1.1. */
+CRT_API crt_status crt_entity_with_principled(crt_entity* entity, const crt_principled* material,
+                                              crt_entity** out);
 /**
  * Makes the entity under a number that hits report. An entity without one reports its place in the
  * scene. The outermost number holds.

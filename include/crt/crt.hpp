@@ -27,6 +27,7 @@
 #include <crt/pattern.hpp>
 #include <crt/prepared_scene.hpp>
 #include <crt/primitives.hpp>
+#include <crt/principled.hpp>
 #include <crt/query.hpp>
 #include <crt/ray.hpp>
 #include <crt/render.hpp>

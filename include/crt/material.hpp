@@ -1,7 +1,9 @@
 #pragma once
 
+#include <concepts>
 #include <crt/color.hpp>
 #include <crt/pattern.hpp>
+#include <crt/principled.hpp>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -38,22 +40,35 @@ struct Material {
   std::optional<Pattern> bump{};
   /// This is the height of the bumps in scene units.
   double bump_height = 0.1;
+  /// This is the radiance that the surface gives off, >= 0.
+  Color emission = {0, 0, 0};
 };
 
 /// A SharedMaterial is a material that many entities share: an immutable handle, cheap to copy. Any
-/// function that takes one also takes a plain `Material`. The constructor checks the values.
+/// function that takes one also takes a plain `Material` or `PrincipledMaterial`. The constructor
+/// checks the values.
 class SharedMaterial {
  public:
   /// Takes the values. Throws Error (invalid_argument) naming the field that is out of range.
   SharedMaterial(Material material);  // NOLINT(google-explicit-constructor): meant to be implicit
+  /// Takes the values of a principled material. Throws Error (invalid_argument) naming the field
+  /// that is out of range.
+  template <std::same_as<PrincipledMaterial> Principled>
+  SharedMaterial(Principled material)  // NOLINT(google-explicit-constructor): meant to be implicit
+      : SharedMaterial(std::make_shared<const PrincipledMaterial>(std::move(material))) {}
 
-  /// Returns the values.
+  /// Returns the values, or those of a material that is roughly like the principled one.
   const Material& operator*() const { return *material_; }
   /// Gives access to one of the values.
   const Material* operator->() const { return material_.get(); }
+  /// Returns the values of a principled material, or null if it is none.
+  const PrincipledMaterial* principled() const { return principled_.get(); }
 
  private:
+  explicit SharedMaterial(std::shared_ptr<const PrincipledMaterial> principled);
+
   std::shared_ptr<const Material> material_;
+  std::shared_ptr<const PrincipledMaterial> principled_;
 };
 
 }  // namespace crt

@@ -137,6 +137,7 @@ struct Uses {
   std::string_view script{};        ///< its name there
   std::string_view c{};             ///< its name in C and Python
   std::string_view alpha{};         ///< what these call the alpha of a colour, if they have it
+  std::string_view map{};           ///< and a pattern in the place of a colour or a number
   std::string_view default_text{};  ///< how scripts say a default that is no value
   /// Scripts have the angle in degrees. This is their message about one that is out of range.
   std::string_view degrees{};

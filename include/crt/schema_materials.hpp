@@ -17,7 +17,7 @@ inline constexpr auto choices<ImageMapping> = choice("ImageMapping", "crt_image_
 template <>
 inline constexpr auto table<Material> = Table{
     "Material",
-    field("color", &Material::color, brightness, {.alpha = "alpha"},
+    field("color", &Material::color, brightness, {.alpha = "alpha", .map = "pattern"},
           "channels at least 0, see below"),
     field("reflectivity", &Material::reflectivity, share, {},
           "share of the light that is mirrored, 0 to 1"),
@@ -37,6 +37,36 @@ inline constexpr auto table<Material> = Table{
           "the surface seems raised by this pattern's brightness"),
     field("bump_height", &Material::bump_height, between(-largest_length, largest_length), {},
           "times this, in units of length"),
+    field("emission", &Material::emission, brightness, {}, "the light that it gives off"),
+};
+
+template <>
+inline constexpr auto table<PrincipledMaterial> = Table{
+    "PrincipledMaterial",
+    field("color", &PrincipledMaterial::color, brightness, {.map = "pattern"},
+          "what is scattered, mirrored, or let through"),
+    field("metallic", &PrincipledMaterial::metallic, share, {.map = "metallic_map"},
+          "how much of it is a metal, 0 to 1"),
+    field("roughness", &PrincipledMaterial::roughness, share, {.map = "roughness_map"},
+          "0 for a perfect mirror or clear glass, to 1"),
+    field("refractive_index", &PrincipledMaterial::refractive_index, between(0.01, 100), {},
+          "how much it mirrors and bends light, 0.01 to 100"),
+    field("transmission", &PrincipledMaterial::transmission, share, {},
+          "how much of what is no metal lets light through, 0 to 1"),
+    field("absorption", &PrincipledMaterial::absorption, channels_to(largest_length), {},
+          "how fast each channel fades inside, at least 0"),
+    field("coat", &PrincipledMaterial::coat, share, {}, "strength of a clear varnish, 0 to 1"),
+    field("coat_roughness", &PrincipledMaterial::coat_roughness, share, {},
+          "roughness of the varnish, 0 to 1"),
+    field("sheen", &PrincipledMaterial::sheen, share, {}, "strength of cloth's sheen, 0 to 1"),
+    field("emission", &PrincipledMaterial::emission, brightness, {.map = "emission_map"},
+          "the light that it gives off"),
+    field("normal_map", &PrincipledMaterial::normal_map, any, {},
+          "tilts the surface by this pattern's colours, see below"),
+    field("bump", &PrincipledMaterial::bump, any, {},
+          "the surface seems raised by this pattern's brightness"),
+    field("bump_height", &PrincipledMaterial::bump_height, between(-largest_length, largest_length),
+          {}, "times this, in units of length"),
 };
 
 /// Patterns of two colours have these rows.

@@ -23,6 +23,8 @@ void validate(const Primitive& primitive);
 void validate(const Pattern& pattern);
 /// Checks a material.
 void validate(const Material& material);
+/// Checks a principled material.
+void validate(const PrincipledMaterial& material);
 /// Checks a light.
 void validate(const Light& light);
 /// Checks a camera.

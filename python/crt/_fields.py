@@ -57,6 +57,49 @@ FIELDS = {
         ),
         ("const crt_pattern* bump", "its luminance raises the surface; default None"),
         ("double bump_height", "scene units; default 0.1"),
+        (
+            "double emission[3]",
+            "Is the radiance that the surface gives off, linear RGB, each in [0, 1e30]; default"
+            " 0. Since 1.1.",
+        ),
+    ),
+    "crt_principled": (
+        ("int32_t reserved", "0"),
+        (
+            "double color[3]",
+            "what is scattered, mirrored by metal or let through: linear RGB, each in [0, "
+            "1e30]; default 0.8",
+        ),
+        ("const crt_pattern* pattern", "takes the place of the colour; default None"),
+        ("double metallic", "share that is a metal, in [0, 1]; default 0"),
+        ("double roughness", "0 for a mirror or clear glass, to 1; default 0.5"),
+        ("double refractive_index", "of the inside, in [0.01, 100]; default 1.5"),
+        (
+            "double transmission",
+            "share of what is no metal that lets light through, in [0, 1]; default 0",
+        ),
+        (
+            "double absorption[3]",
+            "inside, per scene unit and channel (Beer-Lambert), >= 0; default 0",
+        ),
+        ("double coat", "strength of a clear varnish on top, in [0, 1]; default 0"),
+        ("double coat_roughness", "in [0, 1]; default 0"),
+        ("double sheen", "strength of the sheen of cloth, in [0, 1]; default 0"),
+        ("double emission[3]", "radiance given off, linear RGB, each in [0, 1e30]; default 0"),
+        (
+            "const crt_pattern* metallic_map",
+            "its luminance takes the place of metallic; default None",
+        ),
+        ("const crt_pattern* roughness_map", "and that of roughness"),
+        ("const crt_pattern* emission_map", "takes the place of emission; default None"),
+        ("const crt_pattern* bump", "its luminance raises the surface; default None"),
+        (
+            "const crt_pattern* normal_map",
+            "Tilts the normal by its colours, from -1 at 0 to 1 at 1: red along u, green along "
+            "v, blue out of the surface. Pictures count as they are, without the gamma of "
+            "displays. Default None.",
+        ),
+        ("double bump_height", "scene units; default 0.1"),
     ),
     "crt_light": (
         ("int32_t type", "a LightType; default LightType.POINT"),

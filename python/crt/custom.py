@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arguments
 from ._arguments import Point
 from ._callbacks import CUSTOM_CROSSINGS, CUSTOM_POINT, RELEASE, failures
+from ._materials import AnyMaterial
 from ._structs import Struct, growable
 from .primitives import Vector, _Given, _Primitive
-from .values import Material
 
 __all__ = ["Custom"]
 
@@ -60,7 +60,7 @@ class Custom(_Primitive):
         faces: SupportsIndex = 1,
         error: float = 1e-14,
         name: str | None = None,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         for function, what in ((crossings, "crossings"), (normal, "normal")):

@@ -19,9 +19,7 @@ from . import _arguments
 from ._arguments import Point
 from ._handles import Handle, Reference
 from ._library import create, library
-from ._structs import reference
-from .errors import named
-from .values import Material
+from ._materials import AnyMaterial, dressed
 
 MOST_CALLS = 3  # that a representation shows
 
@@ -37,13 +35,10 @@ class Entity(Handle):
     _source: tuple[str, dict[str, Any]] | None = None
     _calls: tuple[tuple[str, Any], ...] = ()
 
-    def with_material(self, material: Material) -> "Entity":
+    def with_material(self, material: AnyMaterial) -> "Entity":
         """Returns the entity with a material on every part that has none of its own."""
-        given = reference(material, "crt_material", "with_material: material")
-        with named("with_material: material"):
-            entity = Entity._adopt(create("crt_entity_with_material", self._handle, given))
-        kept = material._snapshot("an entity keeps a material of its own")
-        return entity._made_by(self, "with_material", kept)
+        handle, kept = dressed(self._handle, material, "with_material: material")
+        return Entity._adopt(handle)._made_by(self, "with_material", kept)
 
     def with_id(self, id: SupportsIndex) -> "Entity":
         """Returns the entity under a number that hits report: the outermost one for the entity, the

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arguments
 from ._library import create
+from ._materials import AnyMaterial
 from ._structs import Struct, growable, reference
 from .entities import Entity
 from .primitives import _Primitive
@@ -65,7 +66,7 @@ def load_mesh(
     fill: str | None = None,
     weld: SupportsFloat = 0,
     stitch: SupportsFloat = 0,
-    material: Material | None = None,
+    material: AnyMaterial | None = None,
     id: int | None = None,
 ) -> Entity:
     """Returns the entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is,
@@ -138,7 +139,7 @@ class Mesh(_Primitive):
         fill: str | None = None,
         weld: SupportsFloat = 0,
         stitch: SupportsFloat = 0,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         mesh = _MeshStruct()

@@ -15,10 +15,9 @@ from ._arguments import Point
 from ._functions import FUNCTIONS
 from ._handles import Reference
 from ._library import create, library
-from ._structs import reference
+from ._materials import AnyMaterial, dressed
 from .entities import Entity
 from .errors import named
-from .values import Material
 
 __all__ = [
     "Blob",
@@ -85,13 +84,13 @@ class _Primitive(Entity):
     """A _Primitive remembers how it was made, for its representation."""
 
     _function: ClassVar[str]  # of the library, that makes it
-    material = _Given[Material | None]()
+    material = _Given[AnyMaterial | None]()
     id = _Given[int | None]()
 
     def _create(
         self,
         function: str,
-        material: Material | None,
+        material: AnyMaterial | None,
         id: SupportsIndex | None,
         given: dict[str, Any],
         *arguments: Any,
@@ -101,15 +100,13 @@ class _Primitive(Entity):
         self._dress(material, id, given)
 
     def _dress(
-        self, material: Material | None, id: SupportsIndex | None, given: dict[str, Any]
+        self, material: AnyMaterial | None, id: SupportsIndex | None, given: dict[str, Any]
     ) -> None:
         """Gives it what all may have, and remembers that too."""
         name = type(self).__name__
         if material is not None:
-            place = reference(material, "crt_material", f"{name}: material")
-            with named(f"{name}: material"):
-                self._take(create("crt_entity_with_material", self._handle, place))
-            given["material"] = material._snapshot("an entity keeps a material of its own")
+            handle, given["material"] = dressed(self._handle, material, f"{name}: material")
+            self._take(handle)
         if id is not None:
             number = _arguments.whole(id, f"{name}: id", ctypes.c_uint32)
             self._take(create("crt_entity_with_id", self._handle, number))
@@ -119,7 +116,7 @@ class _Primitive(Entity):
     def __init_subclass__(cls) -> None:
         cls._function = "crt" + re.sub("([A-Z])", r"_\1", cls.__name__).lower() + "_create"
 
-    def _make(self, material: Material | None, id: SupportsIndex | None, **given: Any) -> None:
+    def _make(self, material: AnyMaterial | None, id: SupportsIndex | None, **given: Any) -> None:
         """Makes it of vectors and numbers, which are what its function takes, in that order."""
         name = type(self).__name__
         shown: dict[str, Any] = {}
@@ -151,7 +148,7 @@ class Empty(_Primitive):
     empty set."""
 
     def __init__(
-        self, *, material: Material | None = None, id: SupportsIndex | None = None
+        self, *, material: AnyMaterial | None = None, id: SupportsIndex | None = None
     ) -> None:
         self._create("crt_empty_create", material, id, {})
 
@@ -167,7 +164,7 @@ class Sphere(_Primitive):
         center: Point,
         radius: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, center=center, radius=radius)
@@ -184,7 +181,7 @@ class Box(_Primitive):
         corner_a: Point,
         corner_b: Point,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, corner_a=corner_a, corner_b=corner_b)
@@ -221,7 +218,7 @@ class Plane(_Primitive):
         normal: Point,
         position: Point = (0, 0, 0),
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, normal=normal, position=position)
@@ -241,7 +238,7 @@ class HalfPlane(_Primitive):
         position: Point,
         direction: Point,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, normal=normal, position=position, direction=direction)
@@ -260,7 +257,7 @@ class Cylinder(_Primitive):
         end: Point,
         radius: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, start=start, end=end, radius=radius)
@@ -281,7 +278,7 @@ class Cone(_Primitive):
         radius: SupportsFloat,
         radius2: SupportsFloat = 0,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, start=start, end=end, radius=radius, radius2=radius2)
@@ -300,7 +297,7 @@ class Capsule(_Primitive):
         end: Point,
         radius: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, start=start, end=end, radius=radius)
@@ -357,7 +354,7 @@ class Extrusion(_Primitive):
         start: Point,
         end: Point,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(start=start, end=end)
@@ -385,7 +382,7 @@ class Revolution(_Primitive):
         end: Point,
         angle: SupportsFloat = 360,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(start=start, end=end)
@@ -413,7 +410,7 @@ class HeightField(_Primitive):
         corner_a: Point,
         corner_b: Point,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         try:
@@ -446,7 +443,7 @@ class Quadric(_Primitive):
         linear: Point,
         constant: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(
@@ -469,7 +466,7 @@ class Implicit(_Primitive):
         lower: Point,
         upper: Point,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         if not isinstance(field, str):
@@ -493,7 +490,7 @@ class Blob(_Primitive):
         parts: Sequence[Any],
         threshold: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         try:
@@ -522,7 +519,7 @@ class Superellipsoid(_Primitive):
         east_west: SupportsFloat,
         north_south: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, east_west=east_west, north_south=north_south)
@@ -544,7 +541,7 @@ class Torus(_Primitive):
         radius: SupportsFloat,
         thickness: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, center=center, axis=axis, radius=radius, thickness=thickness)
@@ -561,7 +558,7 @@ class Ellipsoid(_Primitive):
         center: Point,
         radii: Point,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, center=center, radii=radii)
@@ -580,7 +577,7 @@ class Disc(_Primitive):
         normal: Point,
         radius: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, center=center, normal=normal, radius=radius)
@@ -599,7 +596,7 @@ class Triangle(_Primitive):
         b: Point,
         c: Point,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, a=a, b=b, c=c)

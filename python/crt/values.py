@@ -123,6 +123,12 @@ class Material(Struct):
     """A Material says what a surface is made of. A `pattern` replaces the colour."""
 
 
+@growable("crt_principled")
+class PrincipledMaterial(Struct):
+    """A PrincipledMaterial says what a surface is made of, in the words of glTF, OpenPBR and
+    Blender. Each `..._map` and `pattern` is a Pattern that replaces what it is called after."""
+
+
 class LightType(enum.IntEnum):
     """Lists the kinds of lights. All cast shadows."""
 

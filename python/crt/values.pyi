@@ -314,6 +314,8 @@ class Material(_Struct):
     - absorption (Vector): inside, per scene unit and channel (Beer-Lambert), >= 0; default 0
     - bump (Pattern | None): its luminance raises the surface; default None
     - bump_height (float): scene units; default 0.1
+    - emission (Vector): Is the radiance that the surface gives off, linear RGB, each in [0, 1e30];
+      default 0. Since 1.1.
     """
     color: Vector
     alpha: float
@@ -327,6 +329,7 @@ class Material(_Struct):
     absorption: Vector
     bump: Pattern | None
     bump_height: float
+    emission: Vector
     def __init__(
         self,
         *,
@@ -342,6 +345,7 @@ class Material(_Struct):
         absorption: GivenVector = ...,
         bump: Pattern | None = ...,
         bump_height: SupportsFloat = ...,
+        emission: GivenVector = ...,
     ) -> None: ...
     def set(
         self,
@@ -357,6 +361,93 @@ class Material(_Struct):
         shininess: SupportsFloat = ...,
         absorption: GivenVector = ...,
         bump: Pattern | None = ...,
+        bump_height: SupportsFloat = ...,
+        emission: GivenVector = ...,
+    ) -> None: ...
+
+class PrincipledMaterial(_Struct):
+    """A PrincipledMaterial says what a surface is made of, in the words of glTF, OpenPBR and
+    Blender. Each `..._map` and `pattern` is a Pattern that replaces what it is called after.
+
+    Its fields are:
+    - color (Vector): what is scattered, mirrored by metal or let through: linear RGB, each in [0,
+      1e30]; default 0.8
+    - pattern (Pattern | None): takes the place of the colour; default None
+    - metallic (float): share that is a metal, in [0, 1]; default 0
+    - roughness (float): 0 for a mirror or clear glass, to 1; default 0.5
+    - refractive_index (float): of the inside, in [0.01, 100]; default 1.5
+    - transmission (float): share of what is no metal that lets light through, in [0, 1]; default 0
+    - absorption (Vector): inside, per scene unit and channel (Beer-Lambert), >= 0; default 0
+    - coat (float): strength of a clear varnish on top, in [0, 1]; default 0
+    - coat_roughness (float): in [0, 1]; default 0
+    - sheen (float): strength of the sheen of cloth, in [0, 1]; default 0
+    - emission (Vector): radiance given off, linear RGB, each in [0, 1e30]; default 0
+    - metallic_map (Pattern | None): its luminance takes the place of metallic; default None
+    - roughness_map (Pattern | None): and that of roughness
+    - emission_map (Pattern | None): takes the place of emission; default None
+    - bump (Pattern | None): its luminance raises the surface; default None
+    - normal_map (Pattern | None): Tilts the normal by its colours, from -1 at 0 to 1 at 1: red
+      along u, green along v, blue out of the surface. Pictures count as they are, without the gamma
+      of displays. Default None.
+    - bump_height (float): scene units; default 0.1
+    """
+    color: Vector
+    pattern: Pattern | None
+    metallic: float
+    roughness: float
+    refractive_index: float
+    transmission: float
+    absorption: Vector
+    coat: float
+    coat_roughness: float
+    sheen: float
+    emission: Vector
+    metallic_map: Pattern | None
+    roughness_map: Pattern | None
+    emission_map: Pattern | None
+    bump: Pattern | None
+    normal_map: Pattern | None
+    bump_height: float
+    def __init__(
+        self,
+        *,
+        color: GivenVector = ...,
+        pattern: Pattern | None = ...,
+        metallic: SupportsFloat = ...,
+        roughness: SupportsFloat = ...,
+        refractive_index: SupportsFloat = ...,
+        transmission: SupportsFloat = ...,
+        absorption: GivenVector = ...,
+        coat: SupportsFloat = ...,
+        coat_roughness: SupportsFloat = ...,
+        sheen: SupportsFloat = ...,
+        emission: GivenVector = ...,
+        metallic_map: Pattern | None = ...,
+        roughness_map: Pattern | None = ...,
+        emission_map: Pattern | None = ...,
+        bump: Pattern | None = ...,
+        normal_map: Pattern | None = ...,
+        bump_height: SupportsFloat = ...,
+    ) -> None: ...
+    def set(
+        self,
+        *,
+        color: GivenVector = ...,
+        pattern: Pattern | None = ...,
+        metallic: SupportsFloat = ...,
+        roughness: SupportsFloat = ...,
+        refractive_index: SupportsFloat = ...,
+        transmission: SupportsFloat = ...,
+        absorption: GivenVector = ...,
+        coat: SupportsFloat = ...,
+        coat_roughness: SupportsFloat = ...,
+        sheen: SupportsFloat = ...,
+        emission: GivenVector = ...,
+        metallic_map: Pattern | None = ...,
+        roughness_map: Pattern | None = ...,
+        emission_map: Pattern | None = ...,
+        bump: Pattern | None = ...,
+        normal_map: Pattern | None = ...,
         bump_height: SupportsFloat = ...,
     ) -> None: ...
 

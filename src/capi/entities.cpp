@@ -219,6 +219,14 @@ crt_status crt_entity_with_material(crt_entity* entity, const crt_material* mate
   });
 }
 
+crt_status crt_entity_with_principled(crt_entity* entity, const crt_principled* material,
+                                      crt_entity** out) {
+  return create(out, [&] {
+    require(entity, "entity");
+    return entity->value.with_material(to_material(material));
+  });
+}
+
 crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entity** out) {
   return create(out, [&] {
     require(entity, "entity");

@@ -10,6 +10,7 @@
 #include "capi/growable.hpp"
 #include "capi/structs.hpp"
 #include "crt/pattern.hpp"
+#include "crt/principled.hpp"
 #include "crt/schema.hpp"
 #include "text/format.hpp"
 
@@ -80,6 +81,8 @@ void put_fields(C& out, const Struct& object) {
       put_color(value);
     } else if constexpr (std::is_same_v<Value, std::variant<Color, Pattern>>) {
       if (const auto* color = std::get_if<Color>(&value)) put_color(*color);
+    } else if constexpr (std::is_same_v<Value, Share>) {
+      if (const auto* number = std::get_if<double>(&value)) place.write(*number);
     }
   });
 }
@@ -121,6 +124,29 @@ void take_fields(Struct& object, const C& given, const char* name) {
       take_color(value);
     } else if constexpr (std::is_same_v<Value, std::variant<Color, Pattern>>) {
       take_color(value.template emplace<Color>());
+    } else if constexpr (std::is_same_v<Value, Share>) {
+      place.read(value.template emplace<double>());
+    }
+  });
+}
+
+/// Reads the patterns of a struct of C++ from one of C: those that stand in the place of a colour
+/// or a number, and others.
+template <class Struct, class C>
+void take_patterns(Struct& object, const C& given, const char* name) {
+  const auto pattern_in = [&](std::string_view field) -> std::optional<Pattern> {
+    const crt_pattern* pattern = nullptr;
+    place_in(given, field).read(pattern);
+    if (pattern == nullptr) return std::nullopt;
+    return to_pattern(pattern, text::format("{}.{}", name, field).c_str());
+  };
+  schema::for_each_field<Struct>([&]<class Row>(const Row& row) {
+    using Value = typename Row::Value;
+    if constexpr (std::is_same_v<Value, std::optional<Pattern>>) {
+      object.*row.member = pattern_in(row.c_name());
+    } else if constexpr (requires(Value & value, Pattern pattern) { value = pattern; }) {
+      if (std::optional<Pattern> pattern = pattern_in(row.uses.map))
+        object.*row.member = std::move(*pattern);
     }
   });
 }

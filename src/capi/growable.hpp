@@ -39,6 +39,8 @@ crt_pattern defaults<crt_pattern>();
 template <>
 crt_material defaults<crt_material>();
 template <>
+crt_principled defaults<crt_principled>();
+template <>
 crt_light defaults<crt_light>();
 template <>
 crt_camera defaults<crt_camera>();

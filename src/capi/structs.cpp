@@ -30,7 +30,20 @@ std::span<const CField> c_fields<crt_material>() {
       CRT_FIELD(S, pattern),          CRT_FIELD(S, reflectivity), CRT_FIELD(S, transparency),
       CRT_FIELD(S, refractive_index), CRT_FIELD(S, diffuse),      CRT_FIELD(S, specular),
       CRT_FIELD(S, shininess),        CRT_FIELD(S, absorption),   CRT_FIELD(S, bump),
-      CRT_FIELD(S, bump_height)};
+      CRT_FIELD(S, bump_height),      CRT_FIELD(S, emission)};
+  return fields;
+}
+
+template <>
+std::span<const CField> c_fields<crt_principled>() {
+  using S = crt_principled;
+  static constexpr std::array fields = {
+      CRT_FIELD(S, reserved),       CRT_FIELD(S, color),         CRT_FIELD(S, pattern),
+      CRT_FIELD(S, metallic),       CRT_FIELD(S, roughness),     CRT_FIELD(S, refractive_index),
+      CRT_FIELD(S, transmission),   CRT_FIELD(S, absorption),    CRT_FIELD(S, coat),
+      CRT_FIELD(S, coat_roughness), CRT_FIELD(S, sheen),         CRT_FIELD(S, emission),
+      CRT_FIELD(S, metallic_map),   CRT_FIELD(S, roughness_map), CRT_FIELD(S, emission_map),
+      CRT_FIELD(S, bump),           CRT_FIELD(S, normal_map),    CRT_FIELD(S, bump_height)};
   return fields;
 }
 
@@ -352,6 +365,10 @@ crt_status crt_pattern_init_type(crt_pattern* pattern, size_t struct_size, int32
 
 crt_status crt_material_init(crt_material* material, size_t struct_size) {
   return guarded([&] { initialise(material, struct_size, defaults<crt_material>()); });
+}
+
+crt_status crt_principled_init(crt_principled* material, size_t struct_size) {
+  return guarded([&] { initialise(material, struct_size, defaults<crt_principled>()); });
 }
 
 crt_status crt_light_init(crt_light* light, size_t struct_size) {

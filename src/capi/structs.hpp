@@ -63,6 +63,7 @@ Enum to_enum(std::int32_t value, Enum last, const char* argument, const char* li
 // Each takes all that the caller's struct holds, and throws for NULL and unknown enumeration
 // values.
 Material to_material(const crt_material* material);
+PrincipledMaterial to_material(const crt_principled* material);
 /// `depth` counts the patterns that this one lies within, and itself.
 Pattern to_pattern(const crt_pattern* pattern, const char* argument, int depth = 1);
 MeshOptions to_mesh_options(const crt_mesh_options* options);

@@ -46,8 +46,23 @@ Material to_material(const crt_material* material) {
   const auto given = taken(material, "material");
   Material result;
   take_fields(result, given, "material");
-  if (given.pattern != nullptr) result.color = to_pattern(given.pattern, "material.pattern");
-  if (given.bump != nullptr) result.bump = to_pattern(given.bump, "material.bump");
+  take_patterns(result, given, "material");
+  return result;
+}
+
+template <>
+crt_principled defaults<crt_principled>() {
+  crt_principled out{};
+  out.struct_size = sizeof out;
+  put_fields(out, PrincipledMaterial{});
+  return out;
+}
+
+PrincipledMaterial to_material(const crt_principled* material) {
+  const auto given = taken(material, "material");
+  PrincipledMaterial result;
+  take_fields(result, given, "material");
+  take_patterns(result, given, "material");
   return result;
 }
 

@@ -66,6 +66,7 @@ class Roles {
       case Kind::S_FIRST_BRACKET:
         return Role::opening;
       case Kind::S_LEFT_BRACE:
+      case Kind::S_DERIVING_BRACE:
         return Role::opening_brace;
       case Kind::S_MODIFIER_START:
         return Role::opening_modifiers;

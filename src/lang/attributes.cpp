@@ -197,6 +197,14 @@ void convert(const Given& given, Context& context, std::variant<Color, Pattern>&
   }
 }
 
+void convert(const Given& given, Context& context, Share& field) {
+  if (const auto* pattern = std::get_if<std::shared_ptr<const Pattern>>(&given.value)) {
+    field = copied(given, context, **pattern);
+  } else {
+    convert(given, context, field.emplace<double>());
+  }
+}
+
 void convert(const Given& given, Context& context, std::vector<ColorStop>& field) {
   const std::vector<Value>& items = get<List>(given)->items;
   // The core refuses more stops than a few. Here they must only not be copied by the million.

@@ -52,6 +52,7 @@ void convert(const Given& given, Context& context, Vec3& field);
 void convert(const Given& given, Context& context, Color& field);
 void convert(const Given& given, Context& context, Pattern& field);
 void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field);
+void convert(const Given& given, Context& context, Share& field);
 void convert(const Given& given, Context& context, std::vector<ColorStop>& field);
 void convert(const Given& given, Context& context, FillRule& field);
 void convert(const Given& given, Context& context, SharedMaterial& field);
@@ -112,6 +113,9 @@ constexpr std::string_view type_text(const Pattern*) {
 }
 constexpr std::string_view type_text(const std::variant<Color, Pattern>*) {
   return "Color or Pattern";
+}
+constexpr std::string_view type_text(const Share*) {
+  return "Float or Pattern";
 }
 constexpr std::string_view type_text(const std::vector<ColorStop>*) {
   return "List of colors";

@@ -49,7 +49,7 @@ class CompatSearch {
         if (next(); kind_ == Kind::S_INTEGER) return true;
         continue;
       }
-      if (kind_ == Kind::S_LEFT_BRACE) ++depth;
+      if (kind_ == Kind::S_LEFT_BRACE || kind_ == Kind::S_DERIVING_BRACE) ++depth;
       if (kind_ == Kind::S_RIGHT_BRACE) --depth;
       next();
     }

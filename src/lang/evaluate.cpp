@@ -9,6 +9,7 @@
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
 #include "lang/operators.hpp"
+#include "lang/suggestion.hpp"
 #include "text/format.hpp"
 
 namespace crt::lang {
@@ -61,6 +62,35 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
 [[gnu::noinline]] Value Interpreter::evaluate_node(const ObjectLiteral& object, const Expression&) {
   const std::vector<Given> given = evaluate_attributes(*object.type, object.attributes);
   return object.type->build({context_, object.name.span, given});
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const DerivedMaterial& derived,
+                                                   const Expression&) {
+  const Value base = evaluate(*derived.base);
+  const auto* material = std::get_if<SharedMaterial>(&base);
+  if (!material) {
+    fail(derived.base->span,
+         "a Material with other attributes needs a Material to begin with, not {}", base);
+  }
+  const ObjectType& type =
+      *find_object_type(material->principled() ? "PrincipledMaterial" : "Material");
+  std::vector<AttributeSyntax> attributes = derived.attributes;
+  std::vector<bool> is_given(type.attributes.size(), false);
+  for (AttributeSyntax& attribute : attributes) {
+    const std::string_view name = context_.symbols.name(attribute.name.symbol);
+    attribute.index = find_attribute(type, name);
+    if (attribute.index == type.attributes.size()) {
+      std::vector<std::string_view> known;
+      for (const AttributeType& one : type.attributes) known.push_back(one.name);
+      fail(attribute.name.span, "{} has no attribute '{}'{}", type.name, name,
+           did_you_mean(name, known));
+    }
+    if (is_given[attribute.index])
+      fail(attribute.name.span, "the attribute '{}' is given twice", name);
+    is_given[attribute.index] = true;
+  }
+  const std::vector<Given> given = evaluate_attributes(type, attributes);
+  return type.build({context_, derived.base->span, given, material});
 }
 
 [[gnu::noinline]] Value Interpreter::evaluate_node(const MacroLiteral& macro,

@@ -66,6 +66,8 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %token LEFT_BRACKET "[" FIRST_BRACKET "[ first on its line"
 /* This is a '<' before a modifier. */
 %token MODIFIER_START "< before a modifier"
+/* This is a '{' between a name and an attribute. */
+%token DERIVING_BRACE "{ behind a name"
 
 %token PLUS "+" MINUS "-" STAR "*" SLASH "/" PERCENT "%" CARET "^" NOT "!"
 %token LESS "<" GREATER ">" LESS_EQUAL "<=" GREATER_EQUAL ">=" EQUAL "==" NOT_EQUAL "!="
@@ -230,6 +232,9 @@ postfix:
   | "[ first on its line" nest items "]"     { $$ = tree.expression(@$, ListLiteral{$3}); }
   | OBJECT_NAME "{" nest attributes "}"
                                    { $$ = tree.expression(@$, ObjectLiteral{{$1, @1}, $4}); }
+  | IDENTIFIER "{ behind a name" nest attributes "}"
+                                   { $$ = tree.expression(@$,
+                                       DerivedMaterial{tree.expression(@1, Name{$1}), $4}); }
   | "Macro" open parameters_or_none ")" block
                                              { $$ = tree.macro(@$, $3, $5); }
   | postfix "[" nest expression "]"          { $$ = tree.expression(@$, Index{$1, $4}); }
@@ -293,7 +298,9 @@ namespace crt::lang {
 
 void Grammar::report_syntax_error(const context& context) const {
   const bool at_cursor = context.token() == symbol_kind::S_CURSOR;
-  if (context.token() == symbol_kind::S_LEFT_BRACE) lexer.pass_over_block();
+  if (context.token() == symbol_kind::S_LEFT_BRACE ||
+      context.token() == symbol_kind::S_DERIVING_BRACE)
+    lexer.pass_over_block();
   if (!at_cursor && !tree.is_past_error(context.location())) return;
   // A place in the grammar expects fewer kinds of token than there are.
   symbol_kind_type expected[YYNTOKENS];

@@ -119,6 +119,7 @@ class Interpreter {
   Value evaluate_node(const Literal& literal, const Expression& expression);
   Value evaluate_node(const Name& name, const Expression& expression);
   Value evaluate_node(const ObjectLiteral& object, const Expression& expression);
+  Value evaluate_node(const DerivedMaterial& derived, const Expression& expression);
   Value evaluate_node(const MacroLiteral& macro, const Expression& expression);
   Value evaluate_node(const ListLiteral& list, const Expression& expression);
   Value evaluate_node(const Index& index, const Expression& expression);

@@ -112,6 +112,7 @@ class Lexer {
   void forget_closed_modifiers();
   bool may_begin_statement() const;
   bool arrow_follows() const;
+  bool derivation_follows() const;
   std::string_view next_word() const;
   std::optional<Grammar::token::token_kind_type> keyword_by_place(std::string_view name) const;
   bool is_keyword_of_2015(Grammar::token::token_kind_type kind) const;

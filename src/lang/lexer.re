@@ -129,7 +129,8 @@ Grammar::symbol_type Lexer::scan() {
       "\""                     { return string(); }
       "'" [^'"\r\n]* "'"        { return single_quoted(); }
 
-      "{"      { return opening(Token::LEFT_BRACE); }
+      "{"      { return opening(derivation_follows() ? Token::DERIVING_BRACE
+                                                  : Token::LEFT_BRACE); }
       "("      { return opening(first_on_line_ ? Token::FIRST_PARENTHESIS
                                                : Token::LEFT_PARENTHESIS); }
       "["      { return opening(first_on_line_ ? Token::FIRST_BRACKET : Token::LEFT_BRACKET); }

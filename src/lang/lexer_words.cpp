@@ -132,6 +132,7 @@ bool Lexer::begins_modifier() const {
 bool Lexer::may_begin_statement() const {
   switch (last_.kind) {
     case Grammar::symbol_kind::S_LEFT_BRACE:
+    case Grammar::symbol_kind::S_DERIVING_BRACE:
     case Grammar::symbol_kind::S_RIGHT_BRACE:
     case Grammar::symbol_kind::S_RIGHT_PARENTHESIS:
     case Grammar::symbol_kind::S_RIGHT_BRACKET:
@@ -165,6 +166,15 @@ Grammar::symbol_type Lexer::greater() {
   if (!open_modifiers_.empty() && open_modifiers_.back() == open_brackets_.size())
     open_modifiers_.pop_back();
   return sign(Terminal::GREATER);
+}
+
+/// Says whether a '{' is between a name and an attribute.
+bool Lexer::derivation_follows() const {
+  if (last_.kind != Grammar::symbol_kind::S_IDENTIFIER || compat_ == compat_2015) return false;
+  const std::string_view name = next_word();
+  const Byte* position = next_token_start() + name.size();
+  while (*position == ' ') ++position;
+  return !name.empty() && position[0] == '-' && position[1] == '>';
 }
 
 bool Lexer::arrow_follows() const {

@@ -77,7 +77,9 @@ class Visitor : public TreeWalk<Visitor> {
     if (std::holds_alternative<MacroLiteral>(value.node)) return NameUses::Kind::macro;
     const auto* object = std::get_if<ObjectLiteral>(&value.node);
     // The check has set the type.
-    const bool is_material = object && object->type && object->type->name == "Material";
+    const bool is_material =
+        object && object->type &&
+        (object->type->name == "Material" || object->type->name == "PrincipledMaterial");
     return is_material ? NameUses::Kind::material : NameUses::Kind::variable;
   }
 

@@ -88,6 +88,8 @@ std::string default_text(const Value& value) {
     return text_of_default(std::string(schema::script_name_of(value)));
   } else if constexpr (std::is_same_v<Value, std::variant<Color, Pattern>>) {
     return text_of_default(std::get<Color>(value));
+  } else if constexpr (std::is_same_v<Value, Share>) {
+    return text_of_default(std::get<double>(value));
   } else if constexpr (requires { text_of_default(value); }) {
     return text_of_default(value);
   } else {
@@ -138,14 +140,22 @@ Object assemble(const ObjectSite& site, Object object = {}) {
 
 /// Returns the struct of an object that gives no attributes.
 template <class Object>
-Object initial(const Context&) {
+Object initial(const ObjectSite&) {
   return {};
+}
+template <>
+inline Material initial<Material>(const ObjectSite& site) {
+  return site.base != nullptr ? **site.base : Material{};
+}
+template <>
+inline PrincipledMaterial initial<PrincipledMaterial>(const ObjectSite& site) {
+  return site.base != nullptr ? *site.base->principled() : PrincipledMaterial{};
 }
 /// In scripts of 2015 cameras have a lens if they do not say otherwise.
 template <>
-inline Camera initial<Camera>(const Context& context) {
+inline Camera initial<Camera>(const ObjectSite& site) {
   Camera camera;
-  if (context.compat == compat_2015) {
+  if (site.context.compat == compat_2015) {
     camera.aperture = 3;
     camera.focal_distance = 0.5;
   }
@@ -160,7 +170,7 @@ ObjectType object(std::string_view name, std::vector<AttributeType> attributes,
   return {
       .name = name, .attributes = std::move(attributes), .build = [finish](const ObjectSite& site) {
         try {
-          return finish(assemble(site, initial<Object>(site.context)), site);
+          return finish(assemble(site, initial<Object>(site)), site);
         } catch (const Error& error) {
           blame(error, site.name_span, site.attributes);
         }

@@ -118,9 +118,8 @@ void warn_of_bright_colors(const ObjectSite& site) {
   if (site.context.compat == compat_2015) return;
   for (const Given& given : site.attributes) {
     const auto* color = std::get_if<Color>(&given.value);
-    const bool is_absorption = given.type->name == "absorption";
-    if (color == nullptr || is_absorption || std::max({color->r, color->g, color->b}) <= 1)
-      continue;
+    const bool is_share = given.type->name != "absorption" && given.type->name != "emission";
+    if (color == nullptr || !is_share || std::max({color->r, color->g, color->b}) <= 1) continue;
     site.context.reporter.warning(
         given.value_span,
         text::format("'{}' is brighter than white: the components of a surface's colour are shares "
@@ -137,6 +136,12 @@ Value finish_material(Material material, const ObjectSite& site) {
         site.name_span,
         "'reflectivity' and 'transparency' together are more than 1: more light leaves than comes");
   }
+  warn_of_bright_colors(site);
+  return shared;
+}
+
+Value finish_principled(PrincipledMaterial material, const ObjectSite& site) {
+  SharedMaterial shared(std::move(material));
   warn_of_bright_colors(site);
   return shared;
 }
@@ -254,6 +259,8 @@ std::span<const ObjectType> object_types() {
   static const std::vector<ObjectType> table = [] {
     std::vector<ObjectType> types = entity_types();
     types.push_back(object<Material>("Material", attributes_of<Material>(), finish_material));
+    types.push_back(object<PrincipledMaterial>(
+        "PrincipledMaterial", attributes_of<PrincipledMaterial>(), finish_principled));
     schema::for_each_kind<Pattern>(
         [&types]<class Kind>(std::type_identity<Kind>) { types.push_back(pattern<Kind>()); });
     types.push_back(object<Camera>("Camera", attributes_of<Camera>(), finish_camera));

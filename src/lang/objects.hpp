@@ -50,6 +50,7 @@ struct ObjectSite {
   Context& context;
   Span name_span;
   std::span<const Given> attributes;
+  const SharedMaterial* base = nullptr;  ///< what a material begins with, if it is derived
 };
 
 struct ObjectType {

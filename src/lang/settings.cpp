@@ -57,14 +57,15 @@ const ObjectType& settings_type() {
 
 void apply_settings(Context& context, Span block, const std::vector<Given>& attributes,
                     Scene& scene) {
-  SettingsFields fields = assemble({context, block, attributes}, initial_fields(context));
+  const ObjectSite site = {context, block, attributes};
+  SettingsFields fields = assemble(site, initial_fields(context));
   settle_compat(context, attributes, fields);
   try {
     validate(static_cast<const Settings&>(fields));
   } catch (const Error& error) {
     blame(error, block, attributes);
   }
-  scene.camera = fields.camera.value_or(initial<Camera>(context));
+  scene.camera = fields.camera.value_or(initial<Camera>(site));
   if (fields.projection) scene.camera.projection = *fields.projection;
   if (fields.background) scene.background = std::move(*fields.background);
   scene.lights = std::move(fields.lights);

@@ -65,6 +65,12 @@ struct ObjectLiteral {
   const ObjectType* type = nullptr;
 };
 
+/// A DerivedMaterial is name { attributes }: a copy of a material with other attributes.
+struct DerivedMaterial {
+  const Expression* base = nullptr;  ///< its name
+  std::vector<AttributeSyntax> attributes;
+};
+
 /// A MacroLiteral is Macro (parameters) { body } (rule 26).
 struct MacroLiteral {
   std::vector<NamePlace> parameters;
@@ -159,8 +165,9 @@ struct Assignment {
   const Expression* value = nullptr;
 };
 
-using ExpressionNode = std::variant<Literal, Name, ObjectLiteral, MacroLiteral, ListLiteral, Index,
-                                    Call, Modified, Unary, Chain, Logical, Conditional, Assignment>;
+using ExpressionNode =
+    std::variant<Literal, Name, ObjectLiteral, DerivedMaterial, MacroLiteral, ListLiteral, Index,
+                 Call, Modified, Unary, Chain, Logical, Conditional, Assignment>;
 
 struct Expression {
   Span span;

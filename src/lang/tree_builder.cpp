@@ -50,6 +50,9 @@ int height_of_node(const ExpressionNode& node) {
           [](const Literal&) { return 0; },
           [](const Name&) { return 0; },
           [](const ObjectLiteral& object) { return height_of(object.attributes); },
+          [](const DerivedMaterial& material) {
+            return std::max(height_of(material.base), height_of(material.attributes));
+          },
           [](const MacroLiteral& macro) { return height_of(macro.body); },
           [](const ListLiteral& list) { return height_of(list.items); },
           [](const Index& index) {

@@ -18,6 +18,10 @@ class TreeWalk {
   void operator()(const Literal&) {}
   void operator()(const Name&) {}
   void operator()(const ObjectLiteral& object) { derived().visit(object.attributes); }
+  void operator()(const DerivedMaterial& material) {
+    derived().visit(material.base);
+    derived().visit(material.attributes);
+  }
   void operator()(const MacroLiteral& macro) { derived().visit(macro.body); }
   void operator()(const ListLiteral& list) { derived().visit(list.items); }
   void operator()(const Index& index) {

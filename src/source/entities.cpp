@@ -225,8 +225,12 @@ std::string EntityWriter::placed_by(const std::string& entity, const Transform& 
 
 std::string EntityWriter::with_material(const std::string& entity, const SharedMaterial& material) {
   const std::string name = material_name(program_, material);
-  if (program_.syntax().is_c())
-    return program_.create("entity", "crt_entity_with_material", {entity, "&" + name});
+  const bool is_principled = material.principled() != nullptr;
+  if (program_.syntax().is_c()) {
+    return program_.create(
+        "entity", is_principled ? "crt_entity_with_principled" : "crt_entity_with_material",
+        {entity, "&" + name});
+  }
   if (program_.syntax().is_script()) return modified(entity, "material", name);
   return called(entity, text::format("with_material({})", name));
 }

@@ -83,7 +83,10 @@ void RowWriter::add(Text cpp, Text c, const Uses& uses, const Color& value, cons
   }
   const Vec3 rgb(value.r, value.g, value.b);
   if (rgb != Vec3(usual.r, usual.g, usual.b)) fields_.add_vector(cpp, c, rgb);
-  if (value.a != usual.a) fields_.add_text("", uses.alpha, Syntax::number(value.a));
+  if (value.a == usual.a) return;
+  if (uses.alpha.empty() && cpp == "color")
+    throw Error(ErrorCode::unsupported, "C and Python have no alpha of this colour");
+  fields_.add_text("", uses.alpha, Syntax::number(value.a));
 }
 
 void RowWriter::add(Text cpp, Text c, const Uses&, const std::string& value, const std::string&) {
@@ -114,7 +117,13 @@ void RowWriter::add(Text cpp, Text c, const Uses& uses, const std::variant<Color
                     const std::variant<Color, Pattern>& usual) {
   if (const auto* color = std::get_if<Color>(&value))
     return add(cpp, c, uses, *color, std::get<Color>(usual));
-  fields_.add_text(cpp, "pattern", replacing_pattern(program_, std::get<Pattern>(value)));
+  fields_.add_text(cpp, uses.map, replacing_pattern(program_, std::get<Pattern>(value)));
+}
+
+void RowWriter::add(Text cpp, Text c, const Uses& uses, const Share& value, const Share& usual) {
+  if (const auto* number = std::get_if<double>(&value))
+    return add(cpp, c, uses, *number, std::get<double>(usual));
+  fields_.add_text(cpp, uses.map, replacing_pattern(program_, std::get<Pattern>(value)));
 }
 
 void RowWriter::add(Text cpp, Text c, const Uses&, const std::optional<Pattern>& value,

@@ -54,6 +54,7 @@ class RowWriter {
            const std::optional<double>&);
   void add(Text cpp, Text c, const Uses& uses, const std::variant<Color, Pattern>& value,
            const std::variant<Color, Pattern>& usual);
+  void add(Text cpp, Text c, const Uses& uses, const Share& value, const Share& usual);
   void add(Text cpp, Text c, const Uses&, const std::optional<Pattern>& value,
            const std::optional<Pattern>&);
   /// In a script it stands in the place of a colour.

@@ -9,20 +9,33 @@
 
 namespace crt::source {
 
-std::string material_name(Program& program, const SharedMaterial& shared) {
-  const Material& material = *shared;
+namespace {
+
+/// Names a material that is known by its address. Materials of the same values are one.
+template <class Kind>
+std::string name_of_material(Program& program, const Kind& material) {
   if (std::string known = program.known(&material); !known.empty()) return known;
+  const std::string type(schema::table<Kind>.name);
   Fields fields(program.syntax());
   RowWriter(program, fields).add_all(material);
-  // Materials of the same values are one.
-  const std::string content = fields.constructed("Material");
+  const std::string content = fields.constructed(type);
   std::string name = program.known_value(content);
   if (name.empty()) {
-    name = program.syntax().is_c() ? program.structure("material", "Material", fields)
-                                   : program.define("material", "SharedMaterial", content);
+    const bool is_principled = std::is_same_v<Kind, PrincipledMaterial>;
+    name = program.syntax().is_c()
+               ? program.structure(is_principled ? "principled" : "material", type, fields)
+               : program.define("material", "SharedMaterial", content);
     program.remember_value(content, name);
   }
   return program.remember(&material, name);
+}
+
+}  // namespace
+
+std::string material_name(Program& program, const SharedMaterial& shared) {
+  if (const PrincipledMaterial* principled = shared.principled())
+    return name_of_material(program, *principled);
+  return name_of_material(program, *shared);
 }
 
 std::string light_value(Program& program, const Light& light) {

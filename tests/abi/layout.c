@@ -39,22 +39,6 @@ VALUE(CRT_MAPPING_PLANAR, 1);
 VALUE(CRT_MAPPING_CYLINDRICAL, 2);
 VALUE(CRT_MAPPING_CUBIC, 3);
 
-SIZE(crt_material, 136);
-AT(crt_material, struct_size, 0);
-AT(crt_material, reserved, 4);
-AT(crt_material, color, 8);
-AT(crt_material, alpha, 32);
-AT(crt_material, pattern, 40);
-AT(crt_material, reflectivity, 48);
-AT(crt_material, transparency, 56);
-AT(crt_material, refractive_index, 64);
-AT(crt_material, diffuse, 72);
-AT(crt_material, specular, 80);
-AT(crt_material, shininess, 88);
-AT(crt_material, absorption, 96);
-AT(crt_material, bump, 120);
-AT(crt_material, bump_height, 128);
-
 SIZE(crt_mesh, 120);
 AT(crt_mesh, struct_size, 0);
 AT(crt_mesh, reserved, 4);

@@ -76,6 +76,7 @@ crt_settings small_settings() {
 TEST_CASE("initialising writes the defaults and nothing behind the size that was given") {
   check_init<crt_pattern>(crt_pattern_init);
   check_init<crt_material>(crt_material_init);
+  check_init<crt_principled>(crt_principled_init);
   check_init<crt_light>(crt_light_init);
   check_init<crt_camera>(crt_camera_init);
   check_init<crt_background>(crt_background_init);

@@ -147,7 +147,8 @@ TEST_CASE("hits looked up side by side are what each is by itself, to the last b
 TEST_CASE("what a path through a medium leaves of light is right at all lengths") {
   const auto left = [](const Color& absorption, double length) {
     TexturePool textures(1);
-    const PreparedMaterial medium(Material{.absorption = absorption}, textures);
+    LayerTablePool tables;
+    const PreparedMaterial medium(Material{.absorption = absorption}, {textures, textures, tables});
     return transmittance(medium, length);
   };
   const Rgb some = left({0.5, 3, 1e-3}, 0.75);

@@ -25,6 +25,7 @@ int fields_in() {
     ++count;
     CHECK(has(row.c_name()));
     if (!row.uses.alpha.empty()) CHECK(has(row.uses.alpha));
+    if (!row.uses.map.empty()) CHECK(has(row.uses.map));
   });
   return count;
 }
@@ -34,6 +35,7 @@ int fields_in() {
 TEST_CASE("the structs of C have the fields of those of C++") {
   CHECK(fields_in<crt::Settings, crt_settings>() >= 24);
   CHECK(fields_in<crt::Material, crt_material>() >= 10);
+  CHECK(fields_in<crt::PrincipledMaterial, crt_principled>() >= 12);
   CHECK(fields_in<crt::Camera, crt_camera>() >= 8);
   CHECK(fields_in<crt::SolidBackground, crt_background>() == 1);
   CHECK(fields_in<crt::GradientBackground, crt_background>() == 2);

@@ -89,8 +89,8 @@ TEST_CASE("almost equal indices keep all digits of the little that they reflect"
 }
 
 TEST_CASE("grazing light is all reflected, and near to grazing the share has all its digits") {
-  CHECK(fresnel_reflectance(0, 1.0, 1.5) == doctest::Approx(1).epsilon(1e-15));
-  CHECK(fresnel_reflectance(0, 1.5, 1.0) == 1);
+  CHECK(fresnel_reflectance(0.0, 1.0, 1.5) == doctest::Approx(1).epsilon(1e-15));
+  CHECK(fresnel_reflectance(0.0, 1.5, 1.0) == 1);
   for (const double cosine : {1e-3, 1e-6, 1e-9, 1e-12}) {
     // The light let through is, to first order in the cosine, 2 c (n + 1/n) / sqrt(n^2 - 1).
     const double n = 1.5;

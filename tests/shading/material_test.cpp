@@ -8,7 +8,8 @@ namespace {
 
 PreparedMaterial prepared(const crt::Material& material) {
   TexturePool textures(1);
-  return {material, textures};
+  LayerTablePool tables;
+  return {material, {textures, textures, tables}};
 }
 
 }  // namespace

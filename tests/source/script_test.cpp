@@ -101,6 +101,48 @@ TEST_CASE("settings, cameras and lights are read back as they were") {
   CHECK(picture_of(read) == picture_of(scene));
 }
 
+TEST_CASE("principled materials are read back as they were, and light that materials give off") {
+  const PrincipledMaterial rich = {.color = Pattern(Marble{.scale = 0.3}),
+                                   .metallic = Pattern(Checker{.scale = 0.5}),
+                                   .roughness = Pattern(Noise{.scale = 0.2}),
+                                   .refractive_index = 1.7,
+                                   .transmission = 0.25,
+                                   .absorption = {0.1, 0.2, 0.3},
+                                   .coat = 0.5,
+                                   .coat_roughness = 0.125,
+                                   .sheen = 0.75,
+                                   .emission = Pattern(Stripes{.scale = 0.1}),
+                                   .normal_map = Pattern(Wood{}),
+                                   .bump = Pattern(Gradient{}),
+                                   .bump_height = 0.01};
+  Scene scene = scene_of(Sphere{.material = rich});
+  scene.entities.emplace_back(Box{.material = PrincipledMaterial{.metallic = 1.0}});
+  scene.entities.emplace_back(Box{.material = Material{.emission = {1, 2, 3}}});
+  const Scene read = again(scene);
+  const auto material_of = [&](std::size_t i) {
+    return std::visit([](const auto& shape) { return *shape.material; },
+                      std::get<Primitive>(read.entities.at(i).node().content));
+  };
+  REQUIRE(material_of(0).principled() != nullptr);
+  const PrincipledMaterial& found = *material_of(0).principled();
+  CHECK(std::holds_alternative<Marble>(std::get<Pattern>(found.color)));
+  CHECK(std::holds_alternative<Checker>(std::get<Pattern>(found.metallic)));
+  CHECK(std::get<Noise>(std::get<Pattern>(found.roughness)).scale == 0.2);
+  CHECK(found.refractive_index == 1.7);
+  CHECK(found.transmission == 0.25);
+  CHECK(found.absorption == rich.absorption);
+  CHECK(found.coat == 0.5);
+  CHECK(found.coat_roughness == 0.125);
+  CHECK(found.sheen == 0.75);
+  CHECK(std::holds_alternative<Stripes>(std::get<Pattern>(found.emission)));
+  CHECK(std::holds_alternative<Wood>(*found.normal_map));
+  CHECK(std::holds_alternative<Gradient>(*found.bump));
+  CHECK(found.bump_height == 0.01);
+  CHECK(std::get<double>(material_of(1).principled()->metallic) == 1);
+  CHECK(material_of(2).principled() == nullptr);
+  CHECK(material_of(2)->emission == Color{1, 2, 3});
+}
+
 TEST_CASE("angles that are no degrees are rounded with a warning") {
   const double in_degrees = 40 * (std::acos(-1.0) / 180);
   int warned = 0;

@@ -76,6 +76,22 @@ TEST_CASE("what occurs twice is written once") {
   }
 }
 
+TEST_CASE("principled materials are written in all languages, patterns in the place of numbers") {
+  const SharedMaterial brushed = PrincipledMaterial{
+      .metallic = 1.0, .roughness = Pattern(Noise{.scale = 0.25}), .coat_roughness = 0.5};
+  const Entity ball = Sphere{.material = brushed};
+  CHECK(count(code(ball), "PrincipledMaterial{.metallic = 1, .roughness = Pattern{Noise{") == 1);
+  const std::string python = code(ball, SourceLanguage::python);
+  CHECK(count(python, "crt.PrincipledMaterial(metallic=1, roughness_map=crt.Pattern.noise(") == 1);
+  CHECK(count(python, "coat_roughness=0.5)") == 1);
+  const std::string c = code(ball, SourceLanguage::c);
+  CHECK(count(c, "crt_principled_init") == 1);
+  CHECK(count(c, ".roughness_map = &pattern_1") + count(c, ".roughness_map = &") >= 1);
+  CHECK(count(c, "crt_entity_with_principled(") == 1);
+  const std::string script = code(ball, SourceLanguage::script);
+  CHECK(count(script, "PrincipledMaterial { metallic -> 1 roughness -> Noise { ") == 1);
+}
+
 TEST_CASE("everything that C makes is released, but for what is returned") {
   const Entity solid = (Sphere{} - Box{.corner_a = {0, 0, 0}}).transformed(scale(2));
   const std::string text = code(solid, SourceLanguage::c);

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "core/geometry/disc_point.hpp"
+#include "core/geometry/angles.hpp"
 
 namespace crt::core {
 

@@ -14,7 +14,8 @@ using LensPointLanes = PlanePointLanes;
 
 // Each function takes two numbers in [0, 1).
 
-/// Returns a point of the unit disc, by point_of_disc().
+/// Returns point_of_disc(). Neighbours stay neighbours, so stratified numbers give a stratified
+/// lens.
 LensPoint circle_point(double u, double v);
 
 /// Returns a point of the whole square [-1, 1]^2.

@@ -115,6 +115,10 @@ void check(std::string_view field, const Rule& rule, const std::variant<Color, P
   if (const auto* pattern = std::get_if<Pattern>(&value)) return validate(*pattern);
   check(field, rule, std::get<Color>(value));
 }
+void check(std::string_view field, const Rule& rule, const Share& value) {
+  if (const auto* pattern = std::get_if<Pattern>(&value)) return validate(*pattern);
+  check(field, rule, std::get<double>(value));
+}
 void check(std::string_view, const Rule&, const std::optional<Pattern>& value) {
   if (value) validate(*value);
 }
@@ -194,6 +198,10 @@ void validate(const Material& material) {
   check_fields(material);
 }
 
+void validate(const PrincipledMaterial& material) {
+  check_fields(material);
+}
+
 void validate(const Light& light) {
   std::visit([](const auto& kind) { check_fields(kind); }, light);
   if (const auto* spot = std::get_if<SpotLight>(&light))
@@ -235,11 +243,6 @@ void validate(const Settings& settings) {
   if (settings.compat != 0 && settings.compat != compat_2015) {
     reject("compat", text::format("must be 0 or {} (it is {})", compat_2015, settings.compat));
   }
-}
-
-SharedMaterial::SharedMaterial(Material material) {
-  validate(material);
-  material_ = std::make_shared<const Material>(std::move(material));
 }
 
 }  // namespace crt

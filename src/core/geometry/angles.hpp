@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/math/lanes.hpp"
+#include "core/math/plane_point.hpp"
 #include "core/math/polynomial.hpp"
 #include "crt/vec.hpp"
 
@@ -78,6 +79,21 @@ SineAndCosine<Real> of_eighth_turns(const Real& q) {
     cosine = fma(cosine, square, broadcast<Real>(even[i - 1]));
   }
   return {.sine = q * sine, .cosine = fma(cosine, square, broadcast<Real>(1))};
+}
+
+/// Returns a point of the unit disc for one of the square, u and v in [0, 1], by the concentric map
+/// of Shirley and Chiu, A low distortion map between disk and square, Journal of Graphics Tools
+/// 2(3), 1997. Equal areas stay equal, and neighbours stay neighbours.
+template <class Real>
+PlanePointOf<Real> point_of_disc(const Real& u, const Real& v) {
+  const Real x = 2.0 * u - 1.0;
+  const Real y = 2.0 * v - 1.0;
+  const auto beside = abs(x) > abs(y);
+  const Real radius = select(beside, x, y);
+  const Real across = select(beside, y, x);
+  const auto [sine, cosine] =
+      of_eighth_turns(Real(across / select(radius == 0.0, broadcast<Real>(1), radius)));
+  return {radius * select(beside, cosine, sine), radius * select(beside, sine, cosine)};
 }
 
 /// An AxisFrame has unit vectors that make a frame with `along`, a unit vector. Angles about the

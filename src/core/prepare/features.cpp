@@ -28,7 +28,9 @@ Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& 
     features.absorption = features.absorption || (!material.opaque && material.absorbing);
     features.gain = std::max(features.gain, material.gain);
     features.patterns = features.patterns || material.pattern.has_value();
-    features.bumps = features.bumps || material.bump.has_value();
+    features.bumps = features.bumps || material.tilts();
+    features.principled = features.principled || material.principled.has_value();
+    features.emission = features.emission || material.emits;
   }
   features.lens = has_lens(scene.camera) && scene.settings.dof_samples > 1;
   return features;

@@ -21,7 +21,9 @@ struct Features {
   bool absorption = false;    ///< some transparent material absorbs
   bool patterns = false;      ///< some material's colour is a pattern
   bool bumps = false;
-  bool lens = false;  ///< has_lens() and more than one sample of it
+  bool principled = false;  ///< some material is
+  bool emission = false;    ///< some material gives off light
+  bool lens = false;        ///< has_lens() and more than one sample of it
   bool csg = false;
   bool unseen = false;  ///< camera rays pass some object
   /// The light that a surface lets through is multiplied by at most this. It is 1 if none brightens

@@ -103,7 +103,9 @@ struct PreparedData::Geometry {
 
 PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, const Workers& workers,
                            std::uint64_t max_primitives)
-    : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_) {
+    : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_),
+      normals_(1, earlier == nullptr ? nullptr : &earlier->normals_),
+      layer_tables_(earlier == nullptr ? nullptr : &earlier->layer_tables_) {
   const auto begin = std::chrono::steady_clock::now();
   check_scene(scene);
   scene_ = {.entities = {},
@@ -131,7 +133,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   entity_ids_ = geometry_->entity_ids;
   for (const SharedMaterial& material : geometry_->materials) {
     workers.poll();
-    materials_.emplace_back(material, textures_);
+    materials_.emplace_back(material, MaterialPools{textures_, normals_, layer_tables_});
   }
   opacity_ = opacity_of(accelerator_->compiled(), materials_);
   background_ =
@@ -142,10 +144,13 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   if (std::any_of(scene.lights.begin(), scene.lights.end(), is_environment))
     environment_ = std::make_unique<Environment>(*background_);
   textures_.settle();
+  normals_.settle();
+  layer_tables_.settle();
   features_ = find_features(scene_, materials_, geometry_->has_csg);
   features_.unseen = (accelerator_->kinds_that_pass() & passing_camera) != 0;
 
   warnings_ = textures_.warnings();
+  for (std::string& warning : normals_.warnings()) warnings_.push_back(std::move(warning));
   if (compiled_->leaves.empty() && !has_instances()) {
     warnings_.emplace_back("the scene has no entities: only the background shows");
   } else if (scene.lights.empty()) {
@@ -164,6 +169,7 @@ MemoryUse PreparedData::memory() const {
   MemoryUse use = accelerator_->memory();
   use.primitives += bytes_of(geometry_->entities) + bytes_of(geometry_->entity_ids);
   use.materials = bytes_of(geometry_->materials) + bytes_of(materials_) + textures_.bytes() +
+                  normals_.bytes() + layer_tables_.bytes() +
                   (opacity_.of_materials.capacity() + opacity_.of_objects.capacity()) / CHAR_BIT;
   return use;
 }

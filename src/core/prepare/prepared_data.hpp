@@ -265,6 +265,8 @@ class PreparedData {
   Scene scene_;
   std::shared_ptr<const Geometry> geometry_;
   TexturePool textures_;
+  TexturePool normals_;
+  LayerTablePool layer_tables_;
   std::vector<PreparedMaterial> materials_;
   Opacity opacity_;
   std::unique_ptr<const PreparedBackground> background_;

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "core/geometry/disc_point.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/math/vector.hpp"
 #include "core/render/behind_surfaces.hpp"
 #include "core/shading/fresnel.hpp"

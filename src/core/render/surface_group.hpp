@@ -5,6 +5,7 @@
 
 #include "core/prepare/prepared_data.hpp"
 #include "core/shading/phong.hpp"
+#include "core/shading/principled.hpp"
 
 namespace crt::core {
 
@@ -23,6 +24,11 @@ struct SurfaceGroup {
   Lanes transparency{};
   RayMask sending_on = 0;  ///< those whose materials do not end paths
   Lanes path_length{};     ///< from the camera
+  // These are set where Features say that some material is principled, or gives off light. The
+  // relative indices are those between the materials and vacuum.
+  RayMask principled_rays = 0;  ///< those whose materials are principled
+  PrincipledSurface<Lanes> principled;
+  VectorLanes emission;
 };
 
 /// A SurfaceLane is one surface of a group.

@@ -32,6 +32,17 @@ Vec3 bumped_normal(const LeafOfHit& hit, std::uint32_t face, const PreparedMater
   return tilted_normal(hit.placement().normal_to_world(normal), height_gradient);
 }
 
+/// Returns such a normal that is tilted by the material's normal map, too.
+Vec3 mapped_normal(const LeafOfHit& hit, std::uint32_t face, const PreparedMaterial& material,
+                   const SurfacePoint& point, const Vec3& normal, Workspace& work) {
+  const UvGradient in_object =
+      uv_gradient(*hit.leaf().shape, face, point.position, point.normal, work.scratch);
+  ++work.stats.pattern_lookups;
+  const UvGradient uv = {.u = hit.placement().covector_to_world(in_object.u),
+                         .v = hit.placement().covector_to_world(in_object.v)};
+  return mapped_normal(normal, uv, rgb(material.principled->normal_map->color(point)));
+}
+
 /// SameSideHits are rays of a group that hit one face, or spheres of one material, from the same
 /// side.
 struct SameSideHits {
@@ -59,6 +70,56 @@ void set_material(const SameSideHits& same, const VectorLanes& color, const Lane
   if (!same.material.ends_paths) group.sending_on |= same.rays;
 }
 
+/// Returns the luminances of a pattern, kept within [0, 1], or the number in its place.
+Lanes share_at(const Share& share, const std::optional<PreparedPattern>& pattern,
+               const SurfacePointLanes& points, RayMask same, RenderStats& stats) {
+  if (!pattern) return lanes_of(std::get<double>(share));
+  stats.pattern_lookups += static_cast<unsigned>(std::popcount(same));
+  const Lanes luminances = luminance(pattern->colors(points, same).color);
+  return clamp(luminances, Lanes{}, lanes_of(1));
+}
+
+/// Sets what a principled material is at points in object space.
+void set_principled(const SameSideHits& same, const SurfacePointLanes& points,
+                    const VectorLanes& color, RenderStats& stats, SurfaceGroup& group) {
+  const PreparedPrincipled& prepared = *same.material.principled;
+  const PrincipledMaterial& description = *same.material.description.principled();
+  PrincipledSurface<Lanes>& surface = group.principled;
+  group.principled_rays |= same.rays;
+  const bool transmits = description.transmission > 0;
+  const bool is_outside = same.first.entering || !transmits;
+  const auto set = [&same](Lanes& lanes, double value) { same.set(lanes, lanes_of(value)); };
+  same.set(surface.color, color);
+  same.set(surface.metallic,
+           share_at(description.metallic, prepared.metallic, points, same.rays, stats));
+  same.set(surface.roughness,
+           share_at(description.roughness, prepared.roughness, points, same.rays, stats));
+  set(surface.relative_index,
+      is_outside ? description.refractive_index : 1 / description.refractive_index);
+  set(surface.transmission, description.transmission);
+  set(surface.coat, is_outside ? description.coat : 0);
+  set(surface.coat_roughness, is_outside ? description.coat_roughness : 0);
+  set(surface.sheen, is_outside ? description.sheen : 0);
+  const SharesTable& outside = prepared.tables->outside();
+  const SharesTable& inside = prepared.tables->inside();
+  for_each_ray(same.rays, [&](std::size_t lane) {
+    surface.before[lane] = is_outside ? &outside : &inside;
+    surface.behind[lane] = is_outside ? &inside : &outside;
+  });
+}
+
+/// Sets the light that a material gives off at points in object space.
+void set_emission(const SameSideHits& same, const SurfacePointLanes& points, RenderStats& stats,
+                  SurfaceGroup& group) {
+  const auto& principled = same.material.principled;
+  if (principled && principled->emission) {
+    stats.pattern_lookups += static_cast<unsigned>(std::popcount(same.rays));
+    same.set(group.emission, principled->emission->colors(points, same.rays).color);
+  } else {
+    same.set(group.emission, lanes_of(rgb(same.material.description->emission)));
+  }
+}
+
 /// Sets the normals of surfaces that are bumped or have normals for shading, seen along the rays'
 /// directions. The points are in object space.
 void set_shading_normals(const PreparedData& data, const SameSideHits& same,
@@ -71,9 +132,12 @@ void set_shading_normals(const PreparedData& data, const SameSideHits& same,
     const auto [plain, horizon] =
         in_place.leaf().shape->shading_normal(hit.face, point.position, point.normal);
     group.horizons[lane] = horizon;
-    const Vec3 normal = same.material.bump
+    const bool is_mapped = same.material.principled && same.material.principled->normal_map;
+    const Vec3 raised = same.material.bump
                             ? bumped_normal(in_place, hit.face, same.material, point, plain, work)
                             : in_place.placement().normal_to_world(plain);
+    const Vec3 normal =
+        is_mapped ? mapped_normal(in_place, hit.face, same.material, point, raised, work) : raised;
     group.phong.normal.set(lane, visible_normal(to_viewer * normal, group.phong.view.lane(lane)));
   });
 }
@@ -87,6 +151,12 @@ void look_up(const PreparedData& data, const RayLanes& rays,
   group.phong.view = rays.direction;
   group.sending_on = 0;
   group.smooth = 0;
+  const Features& features = data.features();
+  if (features.principled) {
+    group.principled_rays = 0;
+    group.principled.before.fill(nullptr);
+    group.principled.behind.fill(nullptr);
+  }
   const HitFaces faces(data, hits);
   SurfacePointLanes& points = work.points;
   for (RayMask to_come = seen; to_come != 0;) {
@@ -106,8 +176,11 @@ void look_up(const PreparedData& data, const RayLanes& rays,
     const ColorLanes colors = material_colors(material, points, same.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
     set_material(same, colors.color, transparency, group);
+    if (features.principled && material.principled)
+      set_principled(same, points, colors.color, work.stats, group);
+    if (features.emission) set_emission(same, points, work.stats, group);
     const bool is_smooth = data.leaf(first).has_normals;
-    const bool has_own_normals = is_smooth || material.bump;
+    const bool has_own_normals = is_smooth || material.tilts();
     if (is_smooth) group.smooth |= same.rays;
     if (has_own_normals) set_shading_normals(data, same, points, group, work);
     data.take_to_world(first, points);

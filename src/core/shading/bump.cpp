@@ -113,6 +113,19 @@ Vec3 tilted_normal(const Vec3& normal, const Vec3& height_gradient) {
   return tilted.direction == Vec3(0) ? normal : tilted.direction;
 }
 
+Vec3 mapped_normal(const Vec3& normal, const UvGradient& uv, const Rgb& color) {
+  const auto within_surface = [&normal](const Vec3& v) {
+    return direction_and_length(v - glm::dot(v, normal) * normal).direction;
+  };
+  const Vec3 across = within_surface(uv.u);
+  const Vec3 up = within_surface(uv.v);
+  if (across == Vec3(0) || up == Vec3(0)) return normal;
+  const Vec3 tilt = 2.0 * color - Vec3(1);
+  const DirectionAndLength mapped =
+      direction_and_length(tilt.x * across + tilt.y * up + std::max(0.0, tilt.z) * normal);
+  return mapped.direction == Vec3(0) ? normal : mapped.direction;
+}
+
 Vec3 visible_normal(const Vec3& normal, const Vec3& view) {
   const double away = glm::dot(normal, view);
   if (away <= 0) return normal;

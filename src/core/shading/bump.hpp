@@ -24,6 +24,13 @@ LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const Surfa
 /// one space.
 Vec3 tilted_normal(const Vec3& normal, const Vec3& height_gradient);
 
+/// Returns the normal that a colour of a normal map stands for, at a surface with that normal and
+/// those gradients of (u, v), all in one space. Where (u, v) do not change it is the normal itself.
+///
+/// Source: Blinn, 1978, for the frame of the surface. The colours are those that glTF 2.0 has for
+/// normal textures (section 3.9.3).
+Vec3 mapped_normal(const Vec3& normal, const UvGradient& uv, const Rgb& color);
+
 /// Returns `normal` if a viewer looking along `view` can see a surface turned like that. Otherwise
 /// it returns the nearest normal of one that is just visible.
 Vec3 visible_normal(const Vec3& normal, const Vec3& view);

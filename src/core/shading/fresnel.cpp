@@ -1,7 +1,5 @@
 #include "core/shading/fresnel.hpp"
 
-#include <cmath>
-
 namespace crt::core {
 
 namespace {
@@ -53,12 +51,15 @@ VectorLanes direction_of(const VectorLanes& v) {
 
 }  // namespace
 
-double fresnel_reflectance(double cosine, double n1, double n2) {
-  if (n1 == n2) return 0;
-  const Incidence<double> incidence{cosine, (1 - cosine) * (1 + cosine)};
-  const double squared = squared_cosine_behind(incidence, n1, n2);
-  if (squared <= 0) return 1;
-  return reflectance(incidence, std::sqrt(squared), n1, n2);
+template <class Real>
+Real fresnel_reflectance(const Real& cosine, const Real& n1, const Real& n2) {
+  const Incidence<Real> incidence{cosine, (1.0 - cosine) * (1.0 + cosine)};
+  const Real squared = squared_cosine_behind(incidence, n1, n2);
+  const auto is_total = squared <= 0.0;
+  const Real cosine_behind = sqrt(select(is_total, Real{}, squared));
+  const Real share =
+      select(is_total, broadcast<Real>(1), reflectance(incidence, cosine_behind, n1, n2));
+  return select(n1 == n2, Real{}, share);
 }
 
 template <class Real>
@@ -82,6 +83,8 @@ Refraction<Real> refract(const Vec3Of<Real>& direction, const Vec3Of<Real>& norm
           .direction = select(is_no_boundary, direction, refracted)};
 }
 
+template double fresnel_reflectance(const double&, const double&, const double&);
+template Lanes fresnel_reflectance(const Lanes&, const Lanes&, const Lanes&);
 template Refraction<double> refract(const Vec3&, const Vec3&, const double&, const double&);
 template Refraction<Lanes> refract(const VectorLanes&, const VectorLanes&, const Lanes&,
                                    const Lanes&);

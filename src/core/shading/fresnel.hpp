@@ -25,7 +25,8 @@ Refraction<Real> refract(const Vec3Of<Real>& direction, const Vec3Of<Real>& norm
                          const Real& n2);
 
 /// Returns the reflected share alone, for the cosine (in [0, 1]) of the angle of incidence.
-double fresnel_reflectance(double cosine, double n1, double n2);
+template <class Real>
+Real fresnel_reflectance(const Real& cosine, const Real& n1, const Real& n2);
 
 /// Returns the mirror image of `direction` at the plane across `normal`, for a Vec3 or VectorLanes.
 template <class Vector>

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/geometry/disc_point.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/math/direction_and_length.hpp"
 #include "core/shading/environment.hpp"
 

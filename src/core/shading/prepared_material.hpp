@@ -3,13 +3,35 @@
 
 #include <optional>
 
+#include "core/shading/layer_shares.hpp"
 #include "core/shading/prepared_pattern.hpp"
 #include "crt/material.hpp"
 
 namespace crt::core {
 
+/// MaterialPools have what materials of one scene share.
+struct MaterialPools {
+  TexturePool& textures;
+  TexturePool& normals;  ///< pictures of normals, which no gamma applies to
+  LayerTablePool& tables;
+};
+
+/// A PreparedPrincipled is what a principled material has beside its stand-in.
+struct PreparedPrincipled {
+  PreparedPrincipled(const PrincipledMaterial& material, const MaterialPools& pools);
+
+  // These are empty where a number holds everywhere.
+  std::optional<PreparedPattern> metallic;
+  std::optional<PreparedPattern> roughness;
+  std::optional<PreparedPattern> emission;
+  std::optional<PreparedPattern> normal_map;
+  std::shared_ptr<const LayerTables> tables;
+
+  bool uses_uv() const;
+};
+
 struct PreparedMaterial {
-  PreparedMaterial(const SharedMaterial& material, TexturePool& textures);
+  PreparedMaterial(const SharedMaterial& material, const MaterialPools& pools);
 
   SharedMaterial description;
   /// This is the colour where there is no pattern.
@@ -25,8 +47,14 @@ struct PreparedMaterial {
   /// No secondary ray continues from the material.
   bool ends_paths = true;
   bool absorbing = false;
-  /// The pattern or the bumps use u and v.
+  /// Some pattern uses u and v.
   bool uses_uv = false;
+  /// This is empty for a material that is not principled.
+  std::optional<PreparedPrincipled> principled;
+  /// Returns whether patterns tilt its normals.
+  bool tilts() const { return bump || (principled && principled->normal_map); }
+  /// The surface gives off light.
+  bool emits = false;
 
   /// Returns the share of light let through where the colour's alpha is `alpha`. A gap in the
   /// colour lets all of it through.

@@ -46,6 +46,10 @@ inline double luminance(const Color& color) {
   return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
 }
 
+inline Lanes luminance(const VectorLanes& color) {
+  return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
+}
+
 /// Interpolates from a (share 0) to b (share 1), in every channel and alpha.
 inline Color mix(const Color& a, const Color& b, double share) {
   return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b),
