@@ -26,7 +26,8 @@ void start_at(const Surfaces& surfaces, RayBatch& batch) {
   batch.with_starts = 0;
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {
     const SurfaceGroup& group = surfaces.groups[i];
-    const LaneMask is_lit = (group.phong.diffuse > 0.0) | (group.phong.specular > 0.0);
+    const LaneMask is_lit = (group.phong.diffuse > 0.0) | (group.phong.specular > 0.0) |
+                            lanes_with(group.principled_rays);
     batch.start_errors[i] = group.start_errors;
     for_each_ray(lanes & mask_of(is_lit), [&](std::size_t lane) {
       batch.starts[i * lane_count + lane] = group.starts[lane];
@@ -98,26 +99,54 @@ class NumbersOfLights {
   std::array<LightNumbers, RayPacket::group_count> spare_;
 };
 
-/// Aims shadow rays from some surfaces at a light. Those of `sending_diffuse` send diffuse rays on,
-/// too, which may meet it. Returns to which it may come at all.
+/// FoundByRays says which surfaces send rays on that may find lights, too: diffuse rays, and those
+/// that principled surfaces scatter otherwise.
+struct FoundByRays {
+  RayMask diffuse = 0;
+  RayMask scattered = 0;
+};
+
+/// Sets the light that principled surfaces send back of samples of a light.
+void light_principled(const SurfaceGroup& group, const LightSamples& samples, bool is_balanced,
+                      RayMask scattering, VectorLanes& light) {
+  const Scattering<Lanes> found =
+      evaluate<Lanes>(group.principled, -group.phong.view, group.phong.normal, samples.directions);
+  Lanes shares = lanes_of(1);
+  if (is_balanced) {
+    const Lanes by_ray = select(lanes_with(scattering), found.density, Lanes{});
+    shares = balanced<Lanes>(samples.densities(), by_ray);
+  }
+  const VectorLanes value =
+      samples.diffuse_shares * found.body + shares * (found.value - found.body);
+  // A light of colour 1 shows 1 on a white surface, whose value is the cosine over pi.
+  const VectorLanes seen = std::numbers::pi * samples.intensities * samples.colors * value;
+  light = select(lanes_with(group.principled_rays), seen, light);
+}
+
+/// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
 RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
-               const NumbersOfLights& numbers, RayMask sending_diffuse, ShadowRays& rays) {
+               const NumbersOfLights& numbers, const FoundByRays& found_by, ShadowRays& rays) {
   RayMask aimed = 0;
   LightSamples& samples = rays.samples;
   samples.diffuse_shares = lanes_of(1);
+  const bool is_balanced = source.is_found_by_rays();
   RayPacket::for_each_group(some, [&](std::size_t i, RayMask lanes) {
     const SurfaceGroup& group = surfaces.groups[i];
     LaneMask lit = lanes_with(lanes);
     lit &= source.sample(group.position, group.path_length, numbers.of_group(i), samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
-    if (source.is_found_by_rays()) {
+    if (is_balanced) {
       // A diffuse ray has the density of the cosine over pi.
       const Lanes cosine = max(Lanes{}, dot(samples.directions, group.phong.normal));
-      const Lanes by_ray = select(lanes_with(RayPacket::lanes(sending_diffuse, i)),
+      const Lanes by_ray = select(lanes_with(RayPacket::lanes(found_by.diffuse, i)),
                                   (1 / std::numbers::pi) * cosine, Lanes{});
       samples.diffuse_shares = balanced<Lanes>(samples.densities(), by_ray);
     }
     direct_light(group.phong, samples, lit, rays.light[i]);
+    if (group.principled_rays != 0) {
+      light_principled(group, samples, is_balanced, RayPacket::lanes(found_by.scattered, i),
+                       rays.light[i]);
+    }
     if (group.smooth != 0) soften_terminator(group, samples.directions, rays.light[i]);
     lit &= !is_black(rays.light[i]);
     aimed |= mask_of(lit) << (i * lane_count);
@@ -151,11 +180,14 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   const PacketStarts starts = context.data.noted_starts(batch, some);
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   NumbersOfLights numbers(context, rays, some);
-  const RayMask sending_diffuse = rays.sending_diffuse(context.frame.settings().indirect);
+  const Settings& settings = context.frame.settings();
+  FoundByRays found_by{.diffuse = rays.sending_diffuse(settings.indirect)};
+  if (context.data.features().principled)
+    found_by.scattered = rays.within_depth(settings.recursion_depth);
   std::size_t light_index = 0;
   for (const PreparedLight& source : context.frame.lights()) {
     if (source.has_size()) numbers.next();
-    const RayMask sent = aim_at(source, surfaces, some, numbers, sending_diffuse, shadow_rays);
+    const RayMask sent = aim_at(source, surfaces, some, numbers, found_by, shadow_rays);
     const LightPaths paths = paths_to_light(context, batch, starts, sent);
     // Shadows of what has a size have no edge.
     if (context.identifies && !source.has_size())
@@ -187,6 +219,7 @@ PathLight direct_light(TraceContext& context, const PathRays& rays, const Surfac
     const SurfaceGroup& group = surfaces.groups[i];
     light.colors[i] = ambient_light(context.frame.ambient(), context.frame.settings().ambient_model,
                                     group.phong.color, group.reflectivity, group.transparency);
+    if (context.data.features().emission) light.colors[i] = light.colors[i] + group.emission;
   });
   add_lights(context, rays, surfaces, shadow_rays, light);
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {

@@ -64,10 +64,8 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
     draws_numbers_ = draws_numbers_ || lights_.back().has_size();
     shows_lights_ = shows_lights_ || lights_.back().is_visible();
   }
-  if (settings.indirect > 0) {
-    ambient_ = Rgb(0);
-    draws_numbers_ = true;
-  }
+  if (settings.indirect > 0) ambient_ = Rgb(0);
+  draws_numbers_ = draws_numbers_ || settings.indirect > 0 || features().principled;
   if (features().gain > 1) {
     gains_behind_.assign(static_cast<std::size_t>(settings.recursion_depth) + 1, 1);
     for (std::size_t i = gains_behind_.size() - 1; i-- > 1;) {

@@ -20,14 +20,14 @@ struct Branch {
   RayMask rays = 0;
   VectorLanes directions;
   VectorLanes weights;
+  Lanes densities{};  ///< PathState::density
 };
 
 /// A Split is all rays that surfaces of a group send on.
 struct Split {
+  Branch diffuse;
   Branch mirrored;
   Branch refracted;
-  Branch diffuse;
-  Lanes diffuse_densities{};
   std::array<MediaLists::List, lane_count> media_behind;
 };
 
@@ -37,37 +37,69 @@ VectorLanes kept_on_side(const VectorLanes& direction, const VectorLanes& side) 
   return select(dot(direction, side) < 0.0, mirrored(direction, side), direction);
 }
 
+/// Draws the numbers of a decision of some rays of a group.
+std::array<Lanes, sequence_dimensions> draw(const TraceContext& context, const PathRays& rays,
+                                            std::size_t group, RayMask some, std::uint32_t kind) {
+  std::array<Lanes, sequence_dimensions> result{};
+  for_each_ray(some, [&](std::size_t lane) {
+    const SampleWork& work = *rays.works[group * lane_count + lane];
+    const auto numbers = sample_numbers(context.frame.settings().seed, work.id,
+                                        {static_cast<std::uint32_t>(work.rays), kind});
+    for (std::size_t i = 0; i < numbers.size(); ++i) result[i][lane] = numbers[i];
+  });
+  return result;
+}
+
 /// Returns rays that some of a group of surfaces send on as they send diffuse light back: in random
 /// directions, most of them near the normal. The cosine in their density leaves a weight of the
 /// surface's diffuse colour.
 Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const SurfaceGroup& from,
-                    std::size_t group, RayMask some, Lanes& densities) {
-  const Settings& settings = context.frame.settings();
+                    std::size_t group, RayMask some) {
+  const RayMask principled = some & from.principled_rays;
   Branch branch;
-  for_each_ray(some & mask_of(from.phong.diffuse > 0.0), [&](std::size_t lane) {
-    const std::size_t ray = group * lane_count + lane;
-    if (rays.states[ray].diffuse_bounces < settings.indirect) branch.rays |= RayMask{1} << lane;
-  });
+  branch.rays = (some & mask_of(from.phong.diffuse > 0.0)) | principled;
+  branch.rays &= RayPacket::lanes(rays.sending_diffuse(context.frame.settings().indirect), group);
   if (branch.rays == 0) return branch;
-  Lanes u;
-  Lanes v;
-  for_each_ray(branch.rays, [&](std::size_t lane) {
-    const SampleWork& work = *rays.works[group * lane_count + lane];
-    const auto numbers =
-        sample_numbers(settings.seed, work.id,
-                       {static_cast<std::uint32_t>(work.rays), SampleDecision::diffuse_direction});
-    u[lane] = numbers[0];
-    v[lane] = numbers[1];
-  });
+  const auto [u, v, spare_u, spare_v] =
+      draw(context, rays, group, branch.rays, SampleDecision::diffuse_direction);
   const auto [x, y] = point_of_disc(u, v);
   const Lanes upwards = sqrt(max(Lanes{}, 1.0 - x * x - y * y));
   const VectorLanes& normal = from.phong.normal;
   const auto [a, b] = directions_across(normal);
-  densities = (1 / std::numbers::pi) * upwards;
-  branch.directions = kept_on_side(x * a + y * b + upwards * normal, from.face_normal);
+  const VectorLanes directions = x * a + y * b + upwards * normal;
+  branch.directions = kept_on_side(directions, from.face_normal);
   branch.weights = from.phong.diffuse * rays.weights[group] * from.phong.color;
+  branch.densities = (1 / std::numbers::pi) * upwards;
+  if (principled != 0) {
+    const VectorLanes body =
+        evaluate<Lanes>(from.principled, -from.phong.view, normal, directions).body;
+    const VectorLanes weights = rays.weights[group] * (body / branch.densities);
+    branch.weights = select(lanes_with(principled), weights, branch.weights);
+  }
   branch.rays &= ~mask_of(is_black(branch.weights));
   return branch;
+}
+
+/// Replaces the rays that principled surfaces of a group send on by one each, to either side.
+void scatter(const TraceContext& context, const PathRays& rays, const SurfaceGroup& from,
+             std::size_t group, RayMask principled, Split& split) {
+  const auto [u, v, w, spare] =
+      draw(context, rays, group, principled, SampleDecision::scattered_direction);
+  const ScatteredRay<Lanes> ray =
+      sample<Lanes>(from.principled, -from.phong.view, from.phong.normal, {u, v, w});
+  const VectorLanes weights = rays.weights[group] * ray.weight;
+  const RayMask seen = principled & ~mask_of(is_black(weights));
+  const RayMask through = seen & mask_of(ray.is_transmitted);
+  const auto replace = [&](Branch& branch, RayMask of_branch, const VectorLanes& side) {
+    const LaneMask lanes = lanes_with(principled);
+    branch.rays = (branch.rays & ~principled) | of_branch;
+    branch.directions = select(lanes, kept_on_side(ray.direction, side), branch.directions);
+    branch.weights = select(lanes, weights, branch.weights);
+  };
+  replace(split.mirrored, seen & ~through, from.face_normal);
+  replace(split.refracted, through, -from.face_normal);
+  // Surfaces have taken no samples of lights behind them.
+  split.mirrored.densities = select(lanes_with(principled), ray.density, Lanes{});
 }
 
 /// Finds the rays that go on from some of a group of surfaces.
@@ -94,8 +126,10 @@ Split split(TraceContext& context, const PathRays& rays, const PathHits& hits,
   split.mirrored = {.rays = some & mask_of(mirrored_share > 0.0),
                     .directions = kept_on_side(mirrored(view, normal), from.face_normal),
                     .weights = mirrored_share * weights};
+  const RayMask principled = some & from.principled_rays;
+  if (principled != 0) scatter(context, rays, from, group, principled, split);
   if (context.frame.settings().indirect > 0)
-    split.diffuse = diffuse_rays(context, rays, from, group, some, split.diffuse_densities);
+    split.diffuse = diffuse_rays(context, rays, from, group, some);
   return split;
 }
 
@@ -185,7 +219,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       diffuse.kind = RayKind::diffuse;
       ++diffuse.diffuse_bounces;
       diffuse.path_length = from.path_length();
-      diffuse.density = parts.diffuse_densities[lane];
+      diffuse.density = parts.diffuse.densities[lane];
       const bool waits = is_mirrored || goes_through;
       describe(waits ? work.pending.push() : last, parts.diffuse, from.start(), diffuse);
     }
@@ -194,7 +228,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       mirrored.kind = RayKind::reflection;
       ++mirrored.bounces;
       mirrored.path_length = from.path_length();
-      mirrored.density = 0;
+      mirrored.density = parts.mirrored.densities[lane];
       describe(goes_through ? work.pending.push() : last, parts.mirrored, from.start(), mirrored);
     }
     if (goes_through) {
@@ -221,10 +255,12 @@ void next_rays(TraceContext& context, const PathRays& rays, const PathHits& hits
   next.batch.with_starts = 0;
   const Features& features = context.data.features();
   const bool is_indirect = context.frame.settings().indirect > 0;
-  if (!features.reflection && !features.transparency && !is_indirect) return;
+  if (!features.reflection && !features.transparency && !features.principled && !is_indirect)
+    return;
   for (std::size_t group = 0; group * lane_count < rays.count; ++group) {
     RayMask some = RayPacket::lanes(surfaces.rays, group);
-    if (!is_indirect) some &= surfaces.groups[group].sending_on;
+    const SurfaceGroup& from = surfaces.groups[group];
+    if (!is_indirect) some &= from.sending_on | from.principled_rays;
     const RayMask sent = some == 0 ? 0 : send_on(context, rays, hits, surfaces, group, some, next);
     for_each_ray(RayPacket::lanes(rays.all(), group) & ~sent, [&](std::size_t lane) {
       const std::size_t ray = group * lane_count + lane;

@@ -44,10 +44,22 @@ struct PathRays {
       mask |= mask_of(states[i].diffuse_bounces < indirect) << i;
     return mask;
   }
+  /// Returns those that have had fewer bounces in mirrors and glass.
+  RayMask within_depth(int depth) const {
+    RayMask mask = 0;
+    for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].bounces < depth) << i;
+    return mask;
+  }
   /// Returns the densities with which the directions of a group were drawn.
   Lanes densities(std::size_t group) const {
     const PathState* const first = &states[group * lane_count];
     return Lanes([first](auto lane) { return first[lane].density; });
+  }
+  /// Returns those whose directions were drawn, by surfaces that have taken samples of lights.
+  RayMask drawn() const {
+    RayMask mask = 0;
+    for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].density > 0) << i;
+    return mask;
   }
   /// Returns those that come after a diffuse bounce.
   RayMask after_diffuse() const {

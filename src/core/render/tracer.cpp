@@ -44,10 +44,11 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
   const bool is_seen_through = rays.are_from_camera();
   const PreparedLight* const environment = context.frame.environment();
   PathLight light{.rays = hits.on_background(), .colors = {}};
-  RayMask bounced = 0;
-  if (context.frame.settings().indirect > 0) {
-    bounced = rays.after_diffuse();
-    if (environment == nullptr) light.rays &= ~bounced;
+  RayMask bounced = context.frame.settings().indirect > 0 ? rays.after_diffuse() : 0;
+  if (environment == nullptr) {
+    light.rays &= ~std::exchange(bounced, 0);
+  } else if (context.data.features().principled) {
+    bounced |= rays.drawn();
   }
   RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask lanes) {
     const ColorLanes seen =

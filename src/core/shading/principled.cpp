@@ -68,7 +68,6 @@ template <class Real>
 struct Choice {
   Real coat{};
   Real facets{};        ///< those of the surface below
-  Real body{};          ///< what is below the dielectric
   Real wide{};          ///< what else is scattered back, mostly at grazing angles
   Real wide_through{};  ///< or behind the surface
 };
@@ -179,7 +178,6 @@ void Scatterer<Real>::set_even_scattering() {
   even_through_ = factor * square * surface_.color;
   // The choices are albedos here.
   const Real scattered = std::numbers::pi * of_o_.transparent;
-  choice_.body = opaque_ * of_o_.dielectric * brightest_;
   choice_.wide = 1.0 - of_o_.below_sheen + metal_ * of_o_.metal * largest_channel<Real>(tint) +
                  scattered * before.transparent * factor;
   choice_.wide_through = scattered * behind.transparent * largest_channel<Real>(even_through_);
@@ -198,12 +196,10 @@ void Scatterer<Real>::set_choice() {
   choice_.facets = metal_ * kept(of_o_.metal) * of_metal + opaque_ * kept(of_o_.dielectric) +
                    transparent_ * kept(of_o_.transparent) * of_glass;
   choice_.coat = max(Real{}, Real(of_o_.above - (1.0 - of_o_.below_sheen)));
-  const Real sum =
-      choice_.coat + choice_.facets + choice_.body + choice_.wide + choice_.wide_through;
+  const Real sum = choice_.coat + choice_.facets + choice_.wide + choice_.wide_through;
   const Real scale = quotient<Real>(broadcast<Real>(1), sum);
   choice_.coat = scale * choice_.coat;
   choice_.facets = scale * choice_.facets;
-  choice_.body = scale * choice_.body;
   choice_.wide = scale * choice_.wide;
   choice_.wide_through = scale * choice_.wide_through;
 }
@@ -267,13 +263,12 @@ void Scatterer<Real>::add_evenly(const Vector& i, const LayerShares<Real>& of_i,
                                  Scattering<Real>& sum) const {
   const auto is_back = i.z > 0.0;
   const Real height = abs(i.z);
+  sum.body = select(is_back, height * of_o_.dielectric * of_i.dielectric * even_body_, Vector{});
   const Vector back = of_o_.metal * of_i.metal * even_metal_ +
-                      of_o_.dielectric * of_i.dielectric * even_body_ +
                       grey_of<Real>(of_o_.transparent * of_i.transparent * even_transparent_);
   const Vector through = of_o_.transparent * of_i.transparent * even_through_;
-  sum.value = sum.value + height * select(is_back, back, through);
-  sum.density += select(is_back, choice_.body * inverse_pi * height, Real{}) +
-                 0.5 * inverse_pi * select(is_back, choice_.wide, choice_.wide_through);
+  sum.value = sum.value + sum.body + height * select(is_back, back, through);
+  sum.density += 0.5 * inverse_pi * select(is_back, choice_.wide, choice_.wide_through);
 }
 
 /// Returns the shares of a direction on its side.
@@ -293,8 +288,9 @@ Scattering<Real> Scatterer<Real>::scattering(const Vector& i) const {
   Scattering<Real> through;
   if (any(is_back)) set_mirrored(select(is_back, i, o_), of_i, back);
   if (!all(is_back)) set_through(i, of_i, through);
-  Scattering<Real> sum = {select(is_back, back.value, through.value),
-                          select(is_back, back.density, through.density)};
+  Scattering<Real> sum = {.value = select(is_back, back.value, through.value),
+                          .body = {},
+                          .density = select(is_back, back.density, through.density)};
   add_evenly(i, of_i, sum);
   return sum;
 }
@@ -324,16 +320,13 @@ ScatteredRay<Real> Scatterer<Real>::sample(const std::array<Real, 3>& numbers) c
   const auto is_coat = choice < choice_.coat;
   const auto is_even = !(choice < up_to_facets);
   const auto is_facet = !(is_coat | is_even);
-  const Real up_to_body = up_to_facets + choice_.body;
-  const auto is_back = choice < up_to_body + choice_.wide;
+  const auto is_back = choice < up_to_facets + choice_.wide;
 
-  // These are even by the cosine's square, or by the cosine itself.
+  // These are even by the cosine.
   const PlanePointOf<Real> in_disc = point_of_disc(u, v);
   const Real squared = in_disc.x * in_disc.x + in_disc.y * in_disc.y;
-  const auto is_body = choice < up_to_body;
-  const Real stretch = select(is_body, broadcast<Real>(1), sqrt(Real(2.0 - squared)));
-  const Real rest_of_one = max(Real{}, Real(1.0 - squared));
-  const Real height = select(is_body, sqrt(rest_of_one), rest_of_one);
+  const Real stretch = sqrt(Real(2.0 - squared));
+  const Real height = max(Real{}, Real(1.0 - squared));
   const Vector evenly = {stretch * in_disc.x, stretch * in_disc.y,
                          select(is_back, height, Real(-height))};
 
@@ -355,7 +348,7 @@ ScatteredRay<Real> Scatterer<Real>::sample(const std::array<Real, 3>& numbers) c
   const auto is_possible = select(ray.is_transmitted, ray.direction.z<0.0, ray.direction.z> 0.0);
   const Scattering<Real> found = scattering(ray.direction);
   ray.density = found.density;
-  ray.weight = quotient<Real>(broadcast<Real>(1), found.density) * found.value;
+  ray.weight = quotient<Real>(broadcast<Real>(1), found.density) * (found.value - found.body);
 
   const auto is_smooth = facets.alpha == 0.0;
   ray.is_delta = is_coat & is_even;  // none

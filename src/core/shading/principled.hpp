@@ -64,6 +64,8 @@ struct Scattering {
   /// This is the share of the light's radiance that goes to the viewer, per solid angle, times the
   /// cosine.
   Vec3Of<Real> value;
+  Vec3Of<Real>
+      body;        ///< the part of it that the diffuse body sends back, which sample() leaves out
   Real density{};  ///< of sample(), by solid angle
 };
 
@@ -83,7 +85,8 @@ struct ScatteredRay {
   MaskOf<Real> is_transmitted{};  ///< goes on behind the surface
 };
 
-/// Picks a direction that light may come from, by three numbers in [0, 1).
+/// Picks a direction that light may come from other than by the diffuse body, by three numbers in
+/// [0, 1).
 template <class Real>
 ScatteredRay<Real> sample(const PrincipledSurface<Real>& surface, const Vec3Of<Real>& to_viewer,
                           const Vec3Of<Real>& normal, const std::array<Real, 3>& numbers);
