@@ -468,7 +468,8 @@ typedef struct crt_settings {
   double min_weight;       /**< rays with a smaller share of the pixel in every channel are dropped;
                               default 1/1024 */
   int32_t falloff_model;   /**< a crt_falloff_model; default CRT_FALLOFF_LIGHT */
-  int32_t show_clip; /**< not 0: pixels with a channel above 1 are red in 8-bit files; default 0 */
+  int32_t show_clip; /**< not 0: pixels are red in 8-bit files that cannot say how bright a channel
+                        is; default 0 */
   uint64_t seed;     /**< of the random numbers; default 0 */
   const char* title; /**< this and the next go into the files; NULL (default) for none */
   const char* author;

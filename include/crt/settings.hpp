@@ -103,7 +103,7 @@ struct Settings {
   /// A scene without lights is lit from the camera, so that it shows something. With false it is
   /// black but for mirrors, glass and the background, as it is with compat_2015.
   bool head_light = true;
-  /// Marks pixels with a channel above 1 in red.
+  /// Marks pixels in red of which a channel is brighter than 8-bit files can say, as exposed.
   bool show_clip = false;
   /// This is the seed of the random numbers. Another seed gives other noise.
   std::uint64_t seed = 0;

@@ -186,7 +186,8 @@ FIELDS = {
         ("int32_t falloff_model", "a FalloffModel; default FalloffModel.LIGHT"),
         (
             "int32_t show_clip",
-            "not 0: pixels with a channel above 1 are red in 8-bit files; default 0",
+            "not 0: pixels are red in 8-bit files that cannot say how bright a channel is; "
+            "default 0",
         ),
         ("uint64_t seed", "of the random numbers; default 0"),
         ("const char* title", "this and the next go into the files; None (default) for none"),

@@ -917,7 +917,8 @@ class Settings(_Struct):
     - min_weight (float): rays with a smaller share of the pixel in every channel are dropped;
       default 1/1024
     - falloff_model (FalloffModel, or its name): a FalloffModel; default FalloffModel.LIGHT
-    - show_clip (int): not 0: pixels with a channel above 1 are red in 8-bit files; default 0
+    - show_clip (int): not 0: pixels are red in 8-bit files that cannot say how bright a channel is;
+      default 0
     - seed (int): of the random numbers; default 0
     - title (str | None): this and the next go into the files; None (default) for none
     - author (str | None)
