@@ -74,8 +74,8 @@ Lanes share_at(const Share& share, const std::optional<PreparedPattern>& pattern
                const SurfacePointLanes& points, RayMask alike, RenderStats& stats) {
   if (!pattern) return lanes_of(std::get<double>(share));
   stats.pattern_lookups += static_cast<unsigned>(std::popcount(alike));
-  const Lanes luminances = luminance(pattern->colors(points, alike).color);
-  return clamp(luminances, Lanes{}, lanes_of(1));
+  const Lanes shares = luminances(pattern->colors(points, alike).color);
+  return clamp(shares, Lanes{}, lanes_of(1));
 }
 
 /// Sets what a principled material is at points in object space.
