@@ -3,12 +3,20 @@
 #include <crt/color.hpp>
 #include <crt/pattern.hpp>
 #include <optional>
+#include <utility>
 #include <variant>
 
 namespace crt {
 
 /// A Share is a number from 0 to 1, or a pattern whose luminance is that number.
-using Share = std::variant<double, Pattern>;
+struct Share : std::variant<double, Pattern> {
+  /// Takes the number.
+  Share(double number = 0)  // NOLINT(google-explicit-constructor): meant to be implicit
+      : variant(number) {}
+  /// Takes the pattern.
+  Share(Pattern pattern)  // NOLINT(google-explicit-constructor): meant to be implicit
+      : variant(std::move(pattern)) {}
+};
 
 /// A PrincipledMaterial says what a surface is made of in the words of glTF, OpenPBR and Blender: a
 /// mixture of a metal and a dielectric, whose energy is kept. A white one sends back all light.
@@ -19,7 +27,7 @@ struct PrincipledMaterial {
   /// at least 0; above 1 more light leaves than comes. Alpha is in [0, 1].
   std::variant<Color, Pattern> color = grey(0.8);
   /// This is the share of the surface that is a metal, in [0, 1].
-  Share metallic = 0.0;
+  Share metallic = 0;
   /// This is how rough the surface is, in [0, 1]. 0 is a perfect mirror or clear glass. Its square
   /// is the width of the GGX distribution.
   Share roughness = 0.5;

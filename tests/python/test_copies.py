@@ -14,6 +14,7 @@ import crt
 VALUES = [
     crt.Camera(position=(1, 2, 3), projection=crt.Projection.SPHERICAL),
     crt.Material(color=(1, 0, 0), pattern=crt.Pattern.wood(scale=3), bump=crt.Pattern.noise()),
+    crt.PrincipledMaterial(metallic=1, roughness_map=crt.Pattern.noise(), emission=(1, 2, 3)),
     crt.Light.spot(origin=(0, 3, 0), angle=0.5),
     crt.Background.gradient(sky=(0, 0, 1)),
     crt.Settings(width=7, title="Größe", author=None, seed=2**64 - 1),

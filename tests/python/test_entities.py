@@ -299,6 +299,22 @@ class Materials(unittest.TestCase):
             ball.with_shadow(1)
         self.assertIn("with_shadow(False)", repr(ball.with_shadow(np.bool_(False))))
 
+    def test_principled_materials_paint_as_others_do(self):
+        brass = crt.PrincipledMaterial(color=(1, 0, 0), roughness_map=crt.Pattern.noise(scale=2))
+        light = crt.Light.point(origin=(0, 0, -3))
+        settings = crt.Settings(width=20, height=20)
+        given = crt.Sphere((0, 0, 0), 0.5, material=brass)
+        self.assertEqual(given.material.roughness_map.scale, 2)
+        pictures = [
+            crt.Scene([ball], [light], crt.Camera(), None, settings).render().pixels
+            for ball in (given, crt.Sphere((0, 0, 0), 0.5).with_material(brass))
+        ]
+        self.assertTrue((pictures[0] == pictures[1]).all())
+        self.assertGreater(pictures[0][10, 10, 0], 0.1)
+        self.assertLess(pictures[0][10, 10, 2], pictures[0][10, 10, 0] / 2)
+        with self.assertRaisesRegex(crt.Error, "roughness"):
+            crt.Sphere((0, 0, 0), 1, material=crt.PrincipledMaterial(roughness=2))
+
     def test_ids_are_reported(self):
         prepared = crt.Scene(
             [crt.Sphere((9, 0, 0), 1), crt.Sphere((0, 0, 0), 1, id=77), shell()]

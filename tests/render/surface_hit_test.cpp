@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "core/shading/bump.hpp"
@@ -142,6 +143,111 @@ TEST_CASE("hits looked up side by side are what each is by itself, to the last b
       });
     }
   }
+}
+
+namespace {
+
+/// Looks up what four parallel rays along z meet.
+SurfaceGroup seen_along_z(const PreparedData& data, const Vec3& origin, Workspace& work) {
+  SurfaceGroup group;
+  std::array<RayHit, lane_count> hits;
+  RayLanes lines;
+  RayMask seen = 0;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const WorldRay ray = {.origin = origin + Vec3(static_cast<double>(lane), 0, 0),
+                          .direction = {0, 0, 1}};
+    lines.origin.set(lane, ray.origin);
+    lines.direction.set(lane, ray.direction);
+    hits[lane] = data.intersect(ray, work.rays);
+    seen |= static_cast<RayMask>(hits[lane].found()) << lane;
+  }
+  look_up(data, lines, hits, seen, group, work);
+  return group;
+}
+
+Entity box_at(double x, const SharedMaterial& material) {
+  return Box{.corner_a = {x - 0.4, -1, 0}, .corner_b = {x + 0.4, 1, 1}, .material = material};
+}
+
+}  // namespace
+
+TEST_CASE("hits of principled materials have their numbers, patterns and tables") {
+  const Pattern half = Checker{.color_a = grey(0.5), .color_b = grey(0.5)};
+  const Pattern bright = Checker{.color_a = {3, 0, 0}, .color_b = {3, 0, 0}};
+  const PrincipledMaterial glass = {.color = Color{1, 0.5, 0.25},
+                                    .roughness = 0.25,
+                                    .refractive_index = 1.6,
+                                    .transmission = 0.75,
+                                    .coat = 0.5,
+                                    .coat_roughness = 0.125,
+                                    .sheen = 0.375};
+  Scene scene;
+  scene.entities = {
+      box_at(0, glass),
+      box_at(1, PrincipledMaterial{.metallic = half, .roughness = half, .emission = bright}),
+      box_at(2, Material{.color = grey(0.25), .emission = {0, 2, 0}}),
+      box_at(3, PrincipledMaterial{.metallic = bright, .emission = Color{0, 0, 4}})};
+  const PreparedData data(scene);
+  CHECK(data.features().principled);
+  CHECK(data.features().emission);
+  Workspace work;
+  const SurfaceGroup outside = seen_along_z(data, {0, 0, -5}, work);
+  const PrincipledSurface<Lanes>& surface = outside.principled;
+  CHECK(outside.principled_rays == 0b1011);
+  CHECK(surface.color.lane(0) == Vec3(1, 0.5, 0.25));
+  CHECK(double{surface.roughness[0]} == 0.25);
+  CHECK(double{surface.relative_index[0]} == 1.6);
+  CHECK(double{surface.transmission[0]} == 0.75);
+  CHECK(double{surface.coat[0]} == 0.5);
+  CHECK(double{surface.coat_roughness[0]} == 0.125);
+  CHECK(double{surface.sheen[0]} == 0.375);
+  CHECK(double{surface.metallic[1]} == doctest::Approx(0.5));
+  CHECK(double{surface.roughness[1]} == doctest::Approx(0.5));
+  CHECK(double{surface.metallic[3]} == doctest::Approx(3 * 0.2126));
+  CHECK(surface.before[0] != surface.behind[0]);
+  CHECK(surface.before[1] == surface.behind[1]);
+  CHECK(surface.before[2] == nullptr);
+  CHECK(outside.emission.lane(0) == Vec3(0));
+  CHECK(outside.emission.lane(1) == Vec3(3, 0, 0));
+  CHECK(outside.emission.lane(2) == Vec3(0, 2, 0));
+  CHECK(outside.emission.lane(3) == Vec3(0, 0, 4));
+
+  const SurfaceGroup inside = seen_along_z(data, {0, 0, 0.5}, work);
+  CHECK(double{inside.principled.relative_index[0]} == 1 / 1.6);
+  CHECK(double{inside.principled.coat[0]} == 0);
+  CHECK(inside.principled.before[0] == surface.behind[0]);
+  CHECK(inside.principled.behind[0] == surface.before[0]);
+  // What lets no light through is alike from both sides.
+  CHECK(double{inside.principled.relative_index[1]} == 1.5);
+}
+
+TEST_CASE("a normal map tilts the normal along u and v, and blue alone leaves it as it is") {
+  const auto normal_under = [](const Color& color) {
+    const PrincipledMaterial mapped = {.normal_map =
+                                           Pattern(Checker{.color_a = color, .color_b = color})};
+    Scene scene;
+    scene.entities = {Plane{.normal = {0, 0, -1}, .position = {0, 0, 0}, .material = mapped}};
+    const PreparedData data(scene);
+    CHECK(data.features().bumps);
+    Workspace work;
+    return seen_along_z(data, {0.3, 0.2, -5}, work).phong.normal.lane(0);
+  };
+  CHECK(glm::length(normal_under({0.5, 0.5, 1}) - Vec3(0, 0, -1)) < 1e-9);
+  const Vec3 along_u = normal_under({1, 0.5, 0.5 + 0.5 * std::sqrt(3.0)}) - Vec3(0, 0, -1);
+  const Vec3 along_v = normal_under({0.5, 1, 0.5 + 0.5 * std::sqrt(3.0)}) - Vec3(0, 0, -1);
+  // The normal is half as far out again: the tilt is one of 30 degrees.
+  CHECK(normal_under({1, 0.5, 0.5 + 0.5 * std::sqrt(3.0)}).z ==
+        doctest::Approx(-std::cos(std::numbers::pi / 6)));
+  CHECK(std::abs(glm::dot(Vec3(along_u.x, along_u.y, 0), Vec3(along_v.x, along_v.y, 0))) < 1e-9);
+  CHECK(glm::length(Vec3(along_u.x, along_u.y, 0)) == doctest::Approx(0.5));
+}
+
+TEST_CASE("scenes without principled materials look nothing of them up") {
+  Scene scene;
+  scene.entities = {box_at(0, Material{})};
+  const PreparedData data(scene);
+  CHECK_FALSE(data.features().principled);
+  CHECK_FALSE(data.features().emission);
 }
 
 TEST_CASE("what a path through a medium leaves of light is right at all lengths") {

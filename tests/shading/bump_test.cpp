@@ -31,9 +31,9 @@ void check_near(const Vec3& a, const Vec3& b, double tolerance) {
 }  // namespace
 
 TEST_CASE("luminance weighs the channels as the eye does and is 1 for white") {
-  CHECK(luminance(Rgb{1, 1, 1}) == doctest::Approx(1));
-  CHECK(luminance(Rgb{0, 1, 0}) > luminance(Rgb{1, 0, 0}));
-  CHECK(luminance(Rgb{1, 0, 0}) > luminance(Rgb{0, 0, 1}));
+  CHECK(luminance({1, 1, 1}) == doctest::Approx(1));
+  CHECK(luminance({0, 1, 0}) > luminance({1, 0, 0}));
+  CHECK(luminance({1, 0, 0}) > luminance({0, 0, 1}));
 }
 
 TEST_CASE("the gradient of a pattern in space is the derivative of its luminance") {

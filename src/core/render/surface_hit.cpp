@@ -75,8 +75,8 @@ Lanes share_at(const Share& share, const std::optional<PreparedPattern>& pattern
                const SurfacePointLanes& points, RayMask same, RenderStats& stats) {
   if (!pattern) return lanes_of(std::get<double>(share));
   stats.pattern_lookups += static_cast<unsigned>(std::popcount(same));
-  const Lanes luminances = luminance(pattern->colors(points, same).color);
-  return clamp(luminances, Lanes{}, lanes_of(1));
+  const Lanes shares = luminances(pattern->colors(points, same).color);
+  return clamp(shares, Lanes{}, lanes_of(1));
 }
 
 /// Sets what a principled material is at points in object space.

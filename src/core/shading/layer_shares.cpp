@@ -109,8 +109,8 @@ Lanes share_at(const SharesTable& table, double LayerShares<double>::*share, con
   return shares;
 }
 
-LayerShares<double> between(const LayerShares<double>& a, const LayerShares<double>& b,
-                            double share) {
+LayerShares<double> mixed_shares(const LayerShares<double>& a, const LayerShares<double>& b,
+                                 double share) {
   const auto mixed = [share](double from, double to) { return from + share * (to - from); };
   return {mixed(a.below_sheen, b.below_sheen),
           mixed(a.below_coat, b.below_coat),
@@ -173,16 +173,16 @@ LayerShares<double> SharesTable::at(double cosine, double roughness) const {
   const Place row = row_of(roughness);
   const auto in_row = [&](std::size_t index) {
     const auto& shares = rows_[index].shares;
-    return between(shares[entry], shares[entry + 1], rest);
+    return mixed_shares(shares[entry], shares[entry + 1], rest);
   };
   const LayerShares<double> first = in_row(row.index);
-  return row.rest == 0 ? first : between(first, in_row(row.index + 1), row.rest);
+  return row.rest == 0 ? first : mixed_shares(first, in_row(row.index + 1), row.rest);
 }
 
 LayerShares<double> SharesTable::mean(double roughness) const {
   const Place row = row_of(roughness);
   const LayerShares<double>& first = rows_[row.index].mean;
-  return row.rest == 0 ? first : between(first, rows_[row.index + 1].mean, row.rest);
+  return row.rest == 0 ? first : mixed_shares(first, rows_[row.index + 1].mean, row.rest);
 }
 
 void SharesTable::set_means() {

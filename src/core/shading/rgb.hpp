@@ -46,7 +46,7 @@ inline double luminance(const Color& color) {
   return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
 }
 
-inline Lanes luminance(const VectorLanes& color) {
+inline Lanes luminances(const VectorLanes& color) {
   return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
 }
 
