@@ -362,6 +362,18 @@ TEST_CASE("tables for patterns of roughness are those of single ones, nearly") {
   }
 }
 
+TEST_CASE("tables of equal layers are computed once, also for a scene that was edited") {
+  LayerTablePool before;
+  const auto tables = before.get({.coat = 0.5});
+  CHECK(before.get({.coat = 0.5}) == tables);
+  CHECK(before.get({.coat = 0.25}) != tables);
+  CHECK(before.bytes() >= 2 * tables->bytes());
+  LayerTablePool after(&before);
+  CHECK(after.get({.coat = 0.5}) == tables);
+  after.settle();
+  CHECK(after.get({.coat = 0.25}) != before.get({.coat = 0.25}));
+}
+
 TEST_CASE("surfaces side by side scatter as each alone, to the last bit") {
   const std::vector<Surface> surfaces = rough_surfaces();
   PrincipledSurface<Lanes> lanes;
