@@ -75,6 +75,7 @@ class Visitor : public TreeWalk<Visitor> {
 
   static NameUses::Kind kind_of(const Expression& value) {
     if (std::holds_alternative<MacroLiteral>(value.node)) return NameUses::Kind::macro;
+    if (std::holds_alternative<DerivedMaterial>(value.node)) return NameUses::Kind::material;
     const auto* object = std::get_if<ObjectLiteral>(&value.node);
     // The check has set the type.
     const bool is_material =

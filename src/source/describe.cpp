@@ -24,6 +24,18 @@ void add_material(Values& values, const SharedMaterial& material) {
   const auto add = [&](const char* name, double value) {
     if (value != 0) values.emplace_back(name, Syntax::number(value));
   };
+  if (const PrincipledMaterial* principled = material.principled()) {
+    const auto add_share = [&](const char* name, const Share& share) {
+      if (const auto* number = std::get_if<double>(&share)) return add(name, *number);
+      values.emplace_back(name, "a pattern");
+    };
+    add_share("metallic", principled->metallic);
+    add_share("roughness", principled->roughness);
+    add("transmission", principled->transmission);
+    add("coat", principled->coat);
+    add("sheen", principled->sheen);
+    return;
+  }
   add("reflectivity", material->reflectivity);
   add("transparency", material->transparency);
   add("specular", material->specular);

@@ -185,8 +185,15 @@ class MeshWriter {
     if (attributes.materials.empty()) return;
     const Syntax& syntax = program_.syntax();
     std::vector<std::string> names;
-    for (const SharedMaterial& material : attributes.materials)
+    for (const SharedMaterial& material : attributes.materials) {
+      if (material.principled() != nullptr && !syntax.is_cpp()) {
+        throw Error(
+            ErrorCode::unsupported,
+            "a mesh has principled materials of its own, which C and Python cannot say: give "
+            "the whole mesh one material");
+      }
       names.push_back((syntax.is_c() ? "&" : "") + material_name(program_, material));
+    }
     if (syntax.is_c()) {
       const std::string pointers = program_.local_array("materials", "const crt_material*", names);
       fields_.add_text("", "materials", pointers);

@@ -22,12 +22,15 @@ std::string numbers_line(const char* word, std::span<const double> numbers) {
 }
 
 /// Refuses materials that are more than what a library says of them.
-void check_material(const Material& material) {
+void check_material(const SharedMaterial& shared) {
+  if (shared.principled() != nullptr) refuse_material("what principled ones have");
+  const Material& material = *shared;
   const Material usual;
   if (material.reflectivity != usual.reflectivity) refuse_material("reflectivity");
   if (material.diffuse) refuse_material("diffuse");
   if (material.absorption != usual.absorption) refuse_material("absorption");
   if (material.bump) refuse_material("bumps");
+  if (material.emission != usual.emission) refuse_material("light that they give off");
   if (material.specular != 0 && !(material.shininess > 0)) refuse_material("a shininess of 0");
   if (const auto* color = std::get_if<Color>(&material.color)) {
     if (color->a != 1) refuse_material("an alpha");
@@ -38,8 +41,9 @@ void check_material(const Material& material) {
 }
 
 /// Returns the definition of a material.
-std::string definition_of(Program& program, const Material& material) {
-  check_material(material);
+std::string definition_of(Program& program, const SharedMaterial& shared) {
+  check_material(shared);
+  const Material& material = *shared;
   std::string text;
   if (const auto* color = std::get_if<Color>(&material.color)) {
     text += numbers_line("Kd", std::array{color->r, color->g, color->b});
@@ -60,7 +64,7 @@ std::string definition_of(Program& program, const Material& material) {
 std::string library_of(Program& program, std::span<const SharedMaterial> materials) {
   std::string text;
   for (std::size_t i = 0; i < materials.size(); ++i)
-    text += text::format("newmtl material_{}\n{}", i, definition_of(program, *materials[i]));
+    text += text::format("newmtl material_{}\n{}", i, definition_of(program, materials[i]));
   return text;
 }
 

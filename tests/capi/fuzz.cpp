@@ -249,6 +249,11 @@ void Session::dress() {
       if (input_.below(2) == 0) material.bump = &pattern;
       entities_.make(
           [&](crt_entity** out) { return crt_entity_with_material(entity, &material, out); });
+      auto principled = scrambled<crt_principled>(input_, crt_principled_init);
+      principled.roughness = input_.number();
+      if (input_.below(2) == 0) principled.roughness_map = &pattern;
+      entities_.make(
+          [&](crt_entity** out) { return crt_entity_with_principled(entity, &principled, out); });
     }
   }
 }

@@ -76,3 +76,16 @@ TEST_CASE("what cannot be derived is an error that says why") {
   CHECK(error_of("a = Material { } b = a { diffuse -> -1 } print(b)") ==
         "'diffuse' must be at least 0 (it is -1)");
 }
+
+TEST_CASE("a derived material counts as a use of its variable, and may be unused itself") {
+  const crt::test::Run run = crt::test::run_statements(
+      "steel = PrincipledMaterial { metallic -> 1 }\n"
+      "satin = steel { roughness -> 0.4 }\n");
+  CHECK(run.messages() == std::vector<std::string>{"the material 'satin' is never used"});
+}
+
+TEST_CASE("a brace behind a name derives a material only where an attribute follows") {
+  CHECK(error_of("a = 3 { }").find("unexpected '{'") == 0);
+  CHECK(error_of("a = Material { } b = a { 3 }").find("unexpected '{'") == 0);
+  CHECK(error_of("a = Material { } b = 7 { diffuse -> 1 } print(b)").find("unexpected '{'") == 0);
+}

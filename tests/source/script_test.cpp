@@ -279,10 +279,11 @@ TEST_CASE("meshes keep their rule of what is inside, in scripts and in programs"
 TEST_CASE("materials that no MTL file can say are refused for facets, and not for a whole mesh") {
   const std::vector<Vec3> positions = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   const std::vector<TriangleIndices> triangles = {{0, 1, 2}};
-  for (const Material& material :
-       {Material{.reflectivity = 0.1}, Material{.diffuse = 1}, Material{.absorption = {1, 0, 0}},
-        Material{.bump = Pattern(Noise{})}, Material{.color = Color{1, 1, 1, 0.5}},
-        Material{.color = Pattern(Noise{})}, Material{.specular = 1, .shininess = 0}}) {
+  for (const SharedMaterial& material : std::initializer_list<SharedMaterial>{
+           PrincipledMaterial{}, Material{.emission = {1, 1, 1}}, Material{.reflectivity = 0.1},
+           Material{.diffuse = 1}, Material{.absorption = {1, 0, 0}},
+           Material{.bump = Pattern(Noise{})}, Material{.color = Color{1, 1, 1, 0.5}},
+           Material{.color = Pattern(Noise{})}, Material{.specular = 1, .shininess = 0}}) {
     const Entity own = triangle_mesh(positions, triangles, {.materials = {material}});
     CHECK_THROWS_WITH_AS(source_code(own, as_script),
                          doctest::Contains("a mesh has materials of its own with"), Error);

@@ -94,6 +94,32 @@ TEST_CASE("principled materials are written in all languages, patterns in the pl
   CHECK(count(script, "PrincipledMaterial { metallic -> 1 roughness -> Noise { ") == 1);
 }
 
+TEST_CASE("a mesh whose facets have principled materials is C++ alone") {
+  const Entity mesh =
+      triangle_mesh(std::vector<Vec3>{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+                    std::vector<TriangleIndices>{{0, 1, 2}}, {.materials = {PrincipledMaterial{}}});
+  CHECK(count(code(mesh), "PrincipledMaterial{") == 1);
+  for (const SourceLanguage language : {SourceLanguage::c, SourceLanguage::python})
+    CHECK_THROWS_WITH_AS(code(mesh, language), doctest::Contains("principled"), Error);
+}
+
+TEST_CASE("principled materials are described by their own numbers") {
+  Scene scene;
+  scene.entities = {Sphere{
+      .material = PrincipledMaterial{.metallic = 1, .roughness = Pattern(Noise{}), .coat = 0.5}}};
+  const auto list = describe_entities(scene, 10);
+  REQUIRE(list.size() == 1);
+  const auto value_of = [&](const std::string& name) -> std::string {
+    for (const auto& [known, value] : list[0].values)
+      if (known == name) return value;
+    return "none";
+  };
+  CHECK(value_of("metallic") == "1");
+  CHECK(value_of("roughness") == "a pattern");
+  CHECK(value_of("coat") == "0.5");
+  CHECK(value_of("reflectivity") == "none");
+}
+
 TEST_CASE("everything that C makes is released, but for what is returned") {
   const Entity solid = (Sphere{} - Box{.corner_a = {0, 0, 0}}).transformed(scale(2));
   const std::string text = code(solid, SourceLanguage::c);

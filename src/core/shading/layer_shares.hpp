@@ -59,7 +59,7 @@ class SharesTable {
  private:
   friend class LayerTables;
   static constexpr std::size_t intervals = 48;
-  static constexpr std::size_t all_rows = 25;  ///< from a roughness of 0 to 1
+  static constexpr std::size_t all_rows = 17;  ///< from a roughness of 0 to 1
   struct Row {
     std::array<LayerShares<double>, intervals + 1> shares;
     LayerShares<double> mean;

@@ -13,7 +13,7 @@
 // Notation: directions are unit length and lead away from the surface. n . to_viewer > 0. A
 // direction to a light on the side of the viewer is mirrored, and another is let through.
 //
-// Tests: tests/shading/principled_test.cpp
+// Tests: tests/shading/principled_test.cpp, principled_samples_test.cpp
 #pragma once
 
 #include <array>
