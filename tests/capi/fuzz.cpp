@@ -430,13 +430,11 @@ void Session::call(std::uint32_t which) {
   if (which < 13) return combine();
   if (which < 17) return dress();
   if (which < 18) return scenes_.make([](crt_scene** out) { return crt_scene_create(out); });
-  if (which < 19)
-    return scenes_.make([&](crt_scene** out) { return crt_scene_copy(scenes_.any(input_), out); });
+  const auto copy = [&](crt_scene** out) { return crt_scene_copy(scenes_.any(input_), out); };
+  if (which < 19) return scenes_.make(copy);
   if (which < 25) return edit_scene();
-  if (which < 27) {
-    return prepared_.make(
-        [&](crt_prepared** out) { return crt_scene_prepare(scenes_.any(input_), out); });
-  }
+  const auto make = [&](crt_prepared** out) { return crt_scene_prepare(scenes_.any(input_), out); };
+  if (which < 27) return prepared_.make(make);
   if (which < 29) return use_prepared();
   if (which < 30) return use_image();
   if (which < 31) return images_.make([&](crt_image** out) { return ask_farm(input_, out); });

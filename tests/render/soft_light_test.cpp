@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "pictures.hpp"
@@ -171,4 +172,32 @@ TEST_CASE("another seed gives other noise, and no light of size 0 draws numbers"
   CHECK(differ(PointLight{.origin = {3, 4, -2}, .radius = 1}));
   CHECK(!differ(PointLight{.origin = {3, 4, -2}}));
   CHECK(!differ(ParallelLight{.from = {1, 3, -1}}));
+}
+
+TEST_CASE("more samples of lights give less noise around the same light") {
+  Scene scene = floor_scene();
+  scene.settings.width = 64;
+  scene.settings.height = 64;
+  scene.camera = {.position = {0, 3, 0}, .pointing = {0, 0, 0.001}, .fov = 0.2};
+  scene.lights = {
+      SphereLight{.center = {0, 2, 0}, .radius = 1, .color = {1, 1, 1}, .visible = false}};
+  scene.entities.push_back(
+      HalfPlane{.normal = {0, 1, 0}, .position = {0.3, 0.5, 0}, .direction = {-1, 0, 0}});
+  const auto mean_and_spread = [&](int samples) {
+    scene.settings.light_samples = samples;
+    const Image image = render(prepare(scene));
+    double sum = 0;
+    double squares = 0;
+    for (int i = 0; i < 64 * 64; ++i) {
+      const double value = image.at(i % 64, i / 64).r;
+      sum += value / (64 * 64);
+      squares += value * value / (64 * 64);
+    }
+    return std::pair(sum, std::sqrt(squares - sum * sum));
+  };
+  const auto [one, noise_of_one] = mean_and_spread(1);
+  const auto [many, noise_of_many] = mean_and_spread(16);
+  CHECK(one > 0.01);
+  CHECK(many == doctest::Approx(one).epsilon(0.05));
+  CHECK(noise_of_many < 0.5 * noise_of_one);
 }

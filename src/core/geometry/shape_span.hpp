@@ -33,8 +33,8 @@ template <class Real>
 struct WantedEnds {
   MaskOf<Real> enter;
   MaskOf<Real> leave;
-  /// Of both ends only the first is wanted that surely counts. A shape may then say of a line that
-  /// it entered at minus infinity, and that it misses what is surely before its begin.
+  /// Says that of both ends only the first is wanted that surely counts. A shape may then say of a
+  /// line that it entered at minus infinity, and that it misses what is surely before its begin.
   bool only_first = false;
 };
 

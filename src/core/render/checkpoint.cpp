@@ -39,7 +39,7 @@ void add(ByteHash& hash, const T&... numbers) {
 void add_settings(ByteHash& hash, const Settings& s) {
   add(hash, s.width, s.height, s.recursion_depth, s.min_weight, s.gamma, s.seed, s.precision,
       s.target_error, s.min_samples, s.max_samples, s.filter, s.filter_width, s.exposure,
-      s.tone_map, s.light_samples, s.indirect, s.clamp);
+      s.tone_map, s.light_samples, s.indirect, s.clamp, s.cutoff);
   if (s.compat != 0) add(hash, s.compat);
 }
 

@@ -61,42 +61,33 @@ void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, V
   light = select(fades, max(Lanes{}, share) * light, light);
 }
 
-/// A NumbersOfLights draws the numbers that say which points of lights surfaces see. Two lights
-/// share the four numbers of a decision.
+/// A NumbersOfLights draws the numbers that say which points of a light surfaces see.
 class NumbersOfLights {
  public:
   NumbersOfLights(const TraceContext& context, const PathRays& rays, RayMask some)
-      : seed_(context.frame.settings().seed), rays_(rays), some_(some) {}
+      : settings_(context.frame.settings()), rays_(rays), some_(some) {}
 
-  /// Draws those of the next light.
-  void next() {
-    if (++light_ % 2 != 0) return draw();
-    for (std::size_t i = 0; i < RayPacket::group_count; ++i) numbers_[i] = spare_[i];
+  /// Draws those of one of Settings::light_samples samples of a light.
+  void draw(std::size_t light, int sample) {
+    const auto kind = static_cast<std::uint32_t>(light % SampleDecision::kinds_of_lights);
+    const auto samples = static_cast<std::uint32_t>(settings_.light_samples);
+    for_each_ray(some_, [&](std::size_t i) {
+      const SampleWork& work = *rays_.works[i];
+      SampleId id = work.id;
+      id.index = id.index * samples + static_cast<std::uint32_t>(sample);
+      const auto drawn =
+          sample_numbers(settings_.seed, id, {static_cast<std::uint32_t>(work.rays), kind});
+      numbers_[i / lane_count].u[i % lane_count] = drawn[0];
+      numbers_[i / lane_count].v[i % lane_count] = drawn[1];
+    });
   }
   const LightNumbers& of_group(std::size_t group) const { return numbers_[group]; }
 
  private:
-  void draw() {
-    const auto kind = light_ / 2 % SampleDecision::kinds_of_lights;
-    for_each_ray(some_, [&](std::size_t i) {
-      const SampleWork& work = *rays_.works[i];
-      const auto number = static_cast<std::uint32_t>(work.rays);
-      const auto [u, v, spare_u, spare_v] = sample_numbers(seed_, work.id, {number, kind});
-      LightNumbers& numbers = numbers_[i / lane_count];
-      LightNumbers& spare = spare_[i / lane_count];
-      numbers.u[i % lane_count] = u;
-      numbers.v[i % lane_count] = v;
-      spare.u[i % lane_count] = spare_u;
-      spare.v[i % lane_count] = spare_v;
-    });
-  }
-
-  std::uint64_t seed_;
+  const Settings& settings_;
   const PathRays& rays_;
   RayMask some_;
-  std::uint32_t light_ = 0;
   std::array<LightNumbers, RayPacket::group_count> numbers_;
-  std::array<LightNumbers, RayPacket::group_count> spare_;
 };
 
 /// FoundByRays says which surfaces send rays on that may find lights, too: diffuse rays, and those
@@ -169,43 +160,54 @@ LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const Pa
   return {.blocked = data.shadowed_each(batch, starts, some, work)};
 }
 
+/// Adds what gets through along shadow rays that were sent, times a factor, and is sent back.
+void add_light(TraceContext& context, const PathRays& rays, const LightPaths& paths, RayMask sent,
+               double factor, const ShadowRays& shadow_rays, PathLight& sum) {
+  Workspace& work = context.work;
+  const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
+  const RayMask unblocked = sent & ~paths.blocked;
+  const RayMask filtered = paths.filtered | (unblocked & absorbed);
+  RayPacket::for_each_group(unblocked & ~filtered, [&](std::size_t i, RayMask lanes) {
+    VectorLanes& light = sum.colors[i];
+    const VectorLanes more = factor == 1 ? shadow_rays.light[i] : factor * shadow_rays.light[i];
+    light = select(lanes_with(lanes), light + more, light);
+  });
+  for_each_ray(filtered, [&](std::size_t i) {
+    const Rgb share = light_share(context.data, shadow_rays.batch.ray(i), work.rays.on_paths[i],
+                                  rays.works[i]->media, rays.states[i].media, work);
+    const std::size_t lane = i % lane_count;
+    VectorLanes& light = sum.colors[i / lane_count];
+    light.set(lane,
+              light.lane(lane) + factor * (shadow_rays.light[i / lane_count].lane(lane) * share));
+  });
+}
+
 /// Adds what gets through from all lights to surfaces and is sent back.
 void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& surfaces,
                 ShadowRays& shadow_rays, PathLight& sum) {
-  Workspace& work = context.work;
   RayBatch& batch = shadow_rays.batch;
   start_at(surfaces, batch);
   const RayMask some = batch.with_starts;
   if (some == 0) return;
   const PacketStarts starts = context.data.noted_starts(batch, some);
-  const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   NumbersOfLights numbers(context, rays, some);
   const Settings& settings = context.frame.settings();
   FoundByRays found_by{.diffuse = rays.sending_diffuse(settings.indirect)};
   if (context.data.features().principled)
     found_by.scattered = rays.within_depth(settings.recursion_depth);
-  std::size_t light_index = 0;
-  for (const PreparedLight& source : context.frame.lights()) {
-    if (source.has_size()) numbers.next();
-    const RayMask sent = aim_at(source, surfaces, some, numbers, found_by, shadow_rays);
-    const LightPaths paths = paths_to_light(context, batch, starts, sent);
-    // Shadows of what has a size have no edge.
-    if (context.identifies && !source.has_size())
-      identify_shadows(rays, light_index, paths.blocked | paths.filtered);
-    ++light_index;
-    const RayMask unblocked = sent & ~paths.blocked;
-    const RayMask filtered = paths.filtered | (unblocked & absorbed);
-    RayPacket::for_each_group(unblocked & ~filtered, [&](std::size_t i, RayMask lanes) {
-      VectorLanes& light = sum.colors[i];
-      light = select(lanes_with(lanes), light + shadow_rays.light[i], light);
-    });
-    for_each_ray(filtered, [&](std::size_t i) {
-      const Rgb share = light_share(context.data, batch.ray(i), work.rays.on_paths[i],
-                                    rays.works[i]->media, rays.states[i].media, work);
-      const std::size_t lane = i % lane_count;
-      VectorLanes& light = sum.colors[i / lane_count];
-      light.set(lane, light.lane(lane) + shadow_rays.light[i / lane_count].lane(lane) * share);
-    });
+  const std::vector<PreparedLight>& lights = context.frame.lights();
+  for (std::size_t index = 0; index < lights.size(); ++index) {
+    const PreparedLight& source = lights[index];
+    const int samples = source.has_size() ? settings.light_samples : 1;
+    for (int sample = 0; sample < samples; ++sample) {
+      if (source.has_size()) numbers.draw(index, sample);
+      const RayMask sent = aim_at(source, surfaces, some, numbers, found_by, shadow_rays);
+      const LightPaths paths = paths_to_light(context, batch, starts, sent);
+      // Shadows of what has a size have no edge.
+      if (context.identifies && !source.has_size())
+        identify_shadows(rays, index, paths.blocked | paths.filtered);
+      add_light(context, rays, paths, sent, 1.0 / samples, shadow_rays, sum);
+    }
   }
 }
 

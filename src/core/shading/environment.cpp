@@ -20,7 +20,7 @@ constexpr int places_a_side = 2;
 constexpr double even_share = 0.1;
 
 /// Returns the direction at a place of the grid: a turn about y and a height, both in [0, 1].
-Vec3 direction_at(double turn, double height) {
+Vec3 direction_of_cell(double turn, double height) {
   const double y = 1 - 2 * height;
   const double level = std::sqrt(std::max(0.0, 4 * height * (1 - height)));
   const double angle = 2 * std::numbers::pi * turn;
@@ -70,7 +70,7 @@ Environment::Environment(const PreparedBackground& background)
         const double down = (place / places_a_side + 0.5) / places_a_side;
         directions.set(
             static_cast<std::size_t>(place),
-            direction_at((static_cast<double>(column) + across) / static_cast<double>(columns_),
+            direction_of_cell((static_cast<double>(column) + across) / static_cast<double>(columns_),
                          (static_cast<double>(row) + down) / static_cast<double>(rows_)));
       }
       const ColorLanes colors = background_.colors(directions, (1u << lane_count) - 1);
@@ -96,7 +96,7 @@ void Environment::sample(const LightNumbers& numbers, LightSamples& light) const
     const Drawn column = draw(
         std::span(by_column_).subspan(row.entry * (columns_ + 1), columns_ + 1), numbers.u[lane]);
     light.directions.set(
-        lane, direction_at(
+        lane, direction_of_cell(
                   (static_cast<double>(column.entry) + column.rest) / static_cast<double>(columns_),
                   (static_cast<double>(row.entry) + row.rest) / static_cast<double>(rows_)));
     light.intensities[lane] = 4 / strength(row.entry, column.entry);
