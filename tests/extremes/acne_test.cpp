@@ -41,11 +41,12 @@ double unhidden_light(const Scene& scene, const Ray& ray, RayQueries& queries) {
   for (const Light& source : scene.lights) {
     const Vec3 towards = std::visit(
         [&](const auto& kind) {
-          using Kind = std::decay_t<decltype(kind)>;
-          if constexpr (std::is_same_v<Kind, ParallelLight>) {
+          if constexpr (requires { kind.from; }) {
             return kind.from - kind.pointing;
-          } else {
+          } else if constexpr (requires { kind.origin; }) {
             return kind.origin - hit->position;
+          } else {
+            return Vec3(std::numeric_limits<double>::quiet_NaN());  // no light of these tests
           }
         },
         source);

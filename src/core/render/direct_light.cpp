@@ -97,21 +97,26 @@ struct FoundByRays {
   RayMask scattered = 0;
 };
 
-/// Sets the light that principled surfaces send back of samples of a light.
+/// Sets the light that principled surfaces send back of samples of a light, and what of it rays
+/// find, too.
 void light_principled(const SurfaceGroup& group, const LightSamples& samples, bool is_balanced,
-                      RayMask scattering, VectorLanes& light) {
+                      const FoundByRays& found_by, VectorLanes& light, VectorLanes& by_rays) {
   const Scattering<Lanes> found =
       evaluate<Lanes>(group.principled, -group.phong.view, group.phong.normal, samples.directions);
-  Lanes shares = lanes_of(1);
+  VectorLanes scattered = found.value - found.body;
   if (is_balanced) {
-    const Lanes by_ray = select(lanes_with(scattering), found.density, Lanes{});
-    shares = balanced<Lanes>(samples.densities(), by_ray);
+    const Lanes by_ray = select(lanes_with(found_by.scattered), found.density, Lanes{});
+    scattered = balanced<Lanes>(samples.densities(), by_ray) * scattered;
   }
-  const VectorLanes value =
-      samples.diffuse_shares * found.body + shares * (found.value - found.body);
+  const VectorLanes body = samples.diffuse_shares * found.body;
   // A light of colour 1 shows 1 on a white surface, whose value is the cosine over pi.
-  const VectorLanes seen = std::numbers::pi * samples.intensities * samples.colors * value;
-  light = select(lanes_with(group.principled_rays), seen, light);
+  const VectorLanes factor = std::numbers::pi * samples.intensities * samples.colors;
+  const LaneMask lanes = lanes_with(group.principled_rays);
+  light = select(lanes, factor * (body + scattered), light);
+  if (!is_balanced) return;
+  const VectorLanes found_bodies = select(lanes_with(found_by.diffuse), body, VectorLanes{});
+  const VectorLanes found_others = select(lanes_with(found_by.scattered), scattered, VectorLanes{});
+  by_rays = select(lanes, factor * (found_bodies + found_others), by_rays);
 }
 
 /// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
@@ -134,10 +139,12 @@ RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask so
       samples.diffuse_shares = balanced<Lanes>(samples.densities(), by_ray);
     }
     direct_light(group.phong, samples, lit, rays.light[i]);
-    if (group.principled_rays != 0) {
-      light_principled(group, samples, is_balanced, RayPacket::lanes(found_by.scattered, i),
-                       rays.light[i]);
-    }
+    const FoundByRays of_group{.diffuse = RayPacket::lanes(found_by.diffuse, i),
+                               .scattered = RayPacket::lanes(found_by.scattered, i)};
+    VectorLanes& by_rays = rays.found_by_rays[i];
+    if (is_balanced) by_rays = select(lanes_with(of_group.diffuse), rays.light[i], VectorLanes{});
+    if (group.principled_rays != 0)
+      light_principled(group, samples, is_balanced, of_group, rays.light[i], by_rays);
     if (group.smooth != 0) soften_terminator(group, samples.directions, rays.light[i]);
     lit &= !is_black(rays.light[i]);
     aimed |= mask_of(lit) << (i * lane_count);
@@ -162,7 +169,8 @@ LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const Pa
 
 /// Adds what gets through along shadow rays that were sent, times a factor, and is sent back.
 void add_light(TraceContext& context, const PathRays& rays, const LightPaths& paths, RayMask sent,
-               double factor, const ShadowRays& shadow_rays, PathLight& sum) {
+               double factor, bool is_found_by_rays, const ShadowRays& shadow_rays,
+               PathLight& sum) {
   Workspace& work = context.work;
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   const RayMask unblocked = sent & ~paths.blocked;
@@ -176,9 +184,12 @@ void add_light(TraceContext& context, const PathRays& rays, const LightPaths& pa
     const Rgb share = light_share(context.data, shadow_rays.batch.ray(i), work.rays.on_paths[i],
                                   rays.works[i]->media, rays.states[i].media, work);
     const std::size_t lane = i % lane_count;
-    VectorLanes& light = sum.colors[i / lane_count];
-    light.set(lane,
-              light.lane(lane) + factor * (shadow_rays.light[i / lane_count].lane(lane) * share));
+    const std::size_t group = i / lane_count;
+    Rgb sent_back = shadow_rays.light[group].lane(lane);
+    const bool is_through = (paths.filtered >> i & 1u) != 0;
+    if (is_found_by_rays && is_through) sent_back -= shadow_rays.found_by_rays[group].lane(lane);
+    VectorLanes& light = sum.colors[group];
+    light.set(lane, light.lane(lane) + factor * (sent_back * share));
   });
 }
 
@@ -206,7 +217,8 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
       // Shadows of what has a size have no edge.
       if (context.identifies && !source.has_size())
         identify_shadows(rays, index, paths.blocked | paths.filtered);
-      add_light(context, rays, paths, sent, 1.0 / samples, shadow_rays, sum);
+      add_light(context, rays, paths, sent, 1.0 / samples, source.is_found_by_rays(), shadow_rays,
+                sum);
     }
   }
 }

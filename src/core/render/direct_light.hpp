@@ -9,6 +9,9 @@ namespace crt::core {
 struct ShadowRays {
   RayBatch batch;
   std::array<VectorLanes, RayPacket::group_count> light;  ///< that comes if they meet nothing
+  /// This is the part of it that rays which the surfaces send on find, too, through what is
+  /// transparent. It is set where PreparedLight::is_found_by_rays().
+  std::array<VectorLanes, RayPacket::group_count> found_by_rays;
   LightSamples samples;  ///< of a group; a new one for each would be filled with zeros first
 };
 
