@@ -201,7 +201,7 @@ class RoundedBox(_Primitive):
         corner_b: Point,
         radius: SupportsFloat,
         *,
-        material: Material | None = None,
+        material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, corner_a=corner_a, corner_b=corner_b, radius=radius)
