@@ -94,6 +94,45 @@ PixelClass refractive_pixels() {
   return {"refractive", scene, false};
 }
 
+/// Makes a floor and a ball under a light, for light that is drawn.
+Scene floor_and_ball(const Light& light, const SharedMaterial& of_ball) {
+  Scene scene;
+  scene.settings.width = scene.settings.height = side;
+  scene.camera = {.position = {0.4, 2.5, -4}, .pointing = {0.3, 0.2, 0}, .fov = 0.7};
+  scene.background = GradientBackground{.horizon = {0.3, 0.3, 0.3}, .sky = {0.6, 0.7, 0.9}};
+  scene.lights = {light};
+  const Material white{.color = grey(0.7)};
+  scene.entities = {Plane{.normal = {0, 1, 0}, .material = white},
+                    Sphere{.center = {0, 0.7, 0.3}, .radius = 0.7, .material = of_ball}};
+  return scene;
+}
+
+PixelClass penumbra_pixels() {
+  const SphereLight light{.center = {1.5, 3, -0.5}, .radius = 0.7, .color = {4, 4, 4}};
+  return {"penumbra", floor_and_ball(light, Material{.color = grey(0.6)}), false};
+}
+
+PixelClass glossy_pixels() {
+  const RectangleLight light{.corner = {-2, 2.5, -1},
+                             .edge_a = {1, 0, 0},
+                             .edge_b = {0, -0.5, 1},
+                             .color = {5, 5, 5},
+                             .two_sided = true};
+  const PrincipledMaterial metal{.color = Color{0.9, 0.7, 0.4}, .metallic = 1.0, .roughness = 0.3};
+  return {"glossy", floor_and_ball(light, metal), false};
+}
+
+PixelClass indirect_pixels() {
+  Scene scene = floor_and_ball(ParallelLight{.from = {1, 2, -1}, .color = {0.8, 0.8, 0.8}},
+                               Material{.color = Color{0.8, 0.3, 0.2}});
+  scene.settings.indirect = 2;
+  return {"indirect", scene, false};
+}
+
+PixelClass sky_pixels() {
+  return {"sky", floor_and_ball(EnvironmentLight{}, Material{.color = grey(0.6)}), false};
+}
+
 Image reference_of(Scene scene, int samples) {
   scene.settings.seed = 1000;
   scene.settings.target_error = 1;
@@ -111,8 +150,9 @@ TEST_CASE("the bound of Clopper and Pearson is as in tables") {
 TEST_CASE("in every class of pixels 95 of 100 are as near the truth as they say") {
   // This covers the reference's own error, and rounding.
   constexpr double tolerance = 0.1 / 255;
-  std::vector<PixelClass> classes{flat_pixels(), edge_pixels(), thin_pixels(), defocused_pixels(),
-                                  refractive_pixels()};
+  std::vector<PixelClass> classes{flat_pixels(),      edge_pixels(),       thin_pixels(),
+                                  defocused_pixels(), refractive_pixels(), penumbra_pixels(),
+                                  glossy_pixels(),    indirect_pixels(),   sky_pixels()};
   // What counts is how far off a pixel looks, as it is exposed.
   for (PixelClass pixels : {edge_pixels(), defocused_pixels()}) {
     for (const auto& [exposure, map] : {std::pair{2.0, ToneMap::none}, {-1.0, ToneMap::filmic}}) {

@@ -119,7 +119,8 @@ withPage('the keyboard reaches everything, in the order in which it is seen', as
     'tab Console', 'log Console',
     'tab Scene', 'tree Scene',
     'tab Properties', 'input center x', 'input center y', 'input center z',
-    'input radius', 'summary About radius']);
+    'input radius', 'summary About radius', 'button true', 'summary About shadow',
+    'button true', 'summary About visible']);
   assert.equal(await text(page), scene);
 });
 
