@@ -107,7 +107,7 @@ crt_light defaults<crt_light>() {
 template <>
 crt_light defaults_of_size<crt_light>(std::size_t size) {
   crt_light light = defaults<crt_light>();
-  if (size > size_of_light_in_1_0) return light;
+  if (size != size_of_light_in_1_0) return light;
   light.radius = CylinderLight().radius;
   light.angle = SpotLight().angle;
   return light;
@@ -115,7 +115,7 @@ crt_light defaults_of_size<crt_light>(std::size_t size) {
 
 Light to_light(const crt_light* light) {
   auto given = taken(light, "light");
-  const bool is_of_1_0 = given.struct_size <= size_of_light_in_1_0;
+  const bool is_of_1_0 = given.struct_size == size_of_light_in_1_0;
   Light result;
   with_kind<Light>(given.type, "light.type", "crt_light_type", [&]<class Kind>(Kind kind) {
     const Kind standard = kind;

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "crt/light.hpp"
 #include "crt/material.hpp"
 #include "source/program.hpp"
 
@@ -86,6 +87,11 @@ std::string light_of_kind(Program& program, const Kind& kind) {
   const KindNames names = names_of("Light", schema::table<Kind>.name);
   Fields fields(program.syntax());
   RowWriter(program, fields).add_all(kind);
+  // In C and Python a disc has a point that it faces.
+  if constexpr (std::is_same_v<Kind, DiscLight>) {
+    const bool has_normal = program.syntax().is_cpp() || program.syntax().is_script();
+    if (!has_normal) fields.add_vector("", "pointing", kind.center + kind.normal);
+  }
   return program.structure("light", program.syntax().is_python() ? names.python : names.cpp, fields,
                            names.c);
 }

@@ -37,7 +37,7 @@ TEST_CASE("all settings arrive") {
     title -> "T" author -> "A" date -> "D" notes -> "N" width -> 12 height -> 34 gamma -> 2.5
     supersampling -> 3 dofsamples -> 4 recursiondepth -> 5 minweight -> 0.25 falloffmodel -> "light"
     ambientmodel -> "surface" headlight -> false exposure -> -1.5 tonemap -> "filmic"
-    lightsamples -> 9 indirect -> 6 clamp -> 12
+    lightsamples -> 9 indirect -> 6 cutoff -> "black"
     targeterror -> 0.25 timebudget -> 1.5 minsamples -> 32 maxsamples -> 64
     filter -> "blackmanharris" filterwidth -> 2.5 showclip -> true seed -> 77
     precision -> "exact" projection -> "cylindrical"
@@ -61,7 +61,7 @@ TEST_CASE("all settings arrive") {
   CHECK(settings.tone_map == crt::ToneMap::filmic);
   CHECK(settings.light_samples == 9);
   CHECK(settings.indirect == 6);
-  CHECK(settings.clamp == 12);
+  CHECK(settings.cutoff == crt::Cutoff::black);
   CHECK(settings.target_error == 0.25);
   CHECK(settings.time_budget == 1.5);
   CHECK(settings.min_samples == 32);
@@ -192,4 +192,9 @@ TEST_CASE("the default that the table states is the default") {
                              std::string(attribute.default_text) + " } Scene { }";
     CHECK(crt::test::run(text).ok());
   }
+}
+
+TEST_CASE("clamped light arrives, and of it no accuracy can be claimed") {
+  CHECK(scene_of("Settings { clamp -> 12 }\nScene { }").settings.clamp == 12);
+  CHECK(!crt::test::run("Settings { clamp -> 12 targeterror -> 0.1 }\nScene { }").ok());
 }

@@ -41,7 +41,7 @@ TEST_CASE("the structs of C have the fields of those of C++") {
   CHECK(fields_in<crt::GradientBackground, crt_background>() == 2);
   CHECK(fields_in<crt::PanoramaBackground, crt_background>() == 2);
   crt::schema::for_each_kind<crt::Light>(
-      []<class Kind>(std::type_identity<Kind>) { CHECK(fields_in<Kind, crt_light>() >= 4); });
+      []<class Kind>(std::type_identity<Kind>) { CHECK(fields_in<Kind, crt_light>() >= 1); });
   crt::schema::for_each_kind<crt::Pattern>(
       []<class Kind>(std::type_identity<Kind>) { CHECK(fields_in<Kind, crt_pattern>() >= 6); });
 }

@@ -32,13 +32,14 @@ void add(FileTexts& texts, std::string_view name, std::string value) {
 bool is_always_written(std::string_view name) {
   constexpr std::string_view names[] = {"gamma",           "supersampling", "dof_samples",
                                         "recursion_depth", "min_weight",    "falloff_model",
-                                        "show_clip",       "seed"};
+                                        "cutoff",          "show_clip",     "seed"};
   return std::ranges::find(names, name) != std::end(names);
 }
 
 /// Says whether a setting has an effect in this picture, and is not the size.
 bool is_in_use(std::string_view name, const Settings& settings) {
   if (name == "width" || name == "height") return false;
+  if (name == "cutoff") return settings.cutoff != Cutoff::background;
   if (name == "light_samples") return settings.light_samples > 1;
   if (name == "filter_width") return settings.filter != PixelFilter::box;
   if (name != "min_samples" && name != "max_samples") return true;
@@ -53,7 +54,10 @@ void add_settings(FileTexts& texts, const Settings& settings) {
     if constexpr (!std::is_same_v<Value, std::string>) {
       const bool is_zero_in_c = (value == Value{}) != row.c_name().starts_with("no_");
       if (!is_in_use(row.name, settings) || (is_zero_in_c && !is_always_written(row.name))) return;
-      const std::string name = text::format("crt:{}", row.script_name());
+      // That is the name of what the statistics say of it.
+      const bool is_cutoff = row.name == "cutoff";
+      const std::string name =
+          is_cutoff ? "crt:cutoffshows" : text::format("crt:{}", row.script_name());
       if constexpr (std::is_enum_v<Value>) {
         add(texts, name, std::string(schema::script_name_of(value)));
       } else {
