@@ -94,9 +94,10 @@ void RowWriter::add(Text cpp, Text c, const Uses&, const std::string& value, con
 }
 
 void RowWriter::add(Text cpp, Text c, const Uses&, bool value, bool usual) {
-  if (value != usual)
-    fields_.add_text(cpp, c,
-                     syntax_.is_cpp() || syntax_.is_script() ? syntax_.boolean(value) : "1");
+  if (value == usual) return;
+  const bool has_booleans = syntax_.is_cpp() || syntax_.is_script();
+  const bool in_c = value != c.starts_with("no_");
+  fields_.add_text(cpp, c, has_booleans ? syntax_.boolean(value) : in_c ? "1" : "0");
 }
 
 void RowWriter::add(Text cpp, Text c, const Uses&, std::uint64_t value, std::uint64_t usual) {

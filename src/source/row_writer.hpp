@@ -43,7 +43,7 @@ class RowWriter {
   /// In C and Python alpha is a field of its own, if there is any.
   void add(Text cpp, Text c, const Uses& uses, const Color& value, const Color& usual);
   void add(Text cpp, Text c, const Uses&, const std::string& value, const std::string&);
-  /// In C and Python a flag is 0 or 1, and 0 as usual.
+  /// In C and Python a flag is 0 or 1, and that of what is not there has the other one.
   void add(Text cpp, Text c, const Uses&, bool value, bool usual);
   void add(Text cpp, Text c, const Uses&, std::uint64_t value, std::uint64_t usual);
   template <class Enum>
