@@ -168,9 +168,9 @@ LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const Pa
 }
 
 /// Adds what gets through along shadow rays that were sent, times a factor, and is sent back.
-void add_light(TraceContext& context, const PathRays& rays, const LightPaths& paths, RayMask sent,
-               double factor, bool is_found_by_rays, const ShadowRays& shadow_rays,
-               PathLight& sum) {
+void add_unblocked(TraceContext& context, const PathRays& rays, const LightPaths& paths,
+                   RayMask sent, double factor, bool is_found_by_rays,
+                   const ShadowRays& shadow_rays, PathLight& sum) {
   Workspace& work = context.work;
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   const RayMask unblocked = sent & ~paths.blocked;
@@ -217,8 +217,8 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
       // Shadows of what has a size have no edge.
       if (context.identifies && !source.has_size())
         identify_shadows(rays, index, paths.blocked | paths.filtered);
-      add_light(context, rays, paths, sent, 1.0 / samples, source.is_found_by_rays(), shadow_rays,
-                sum);
+      add_unblocked(context, rays, paths, sent, 1.0 / samples, source.is_found_by_rays(),
+                    shadow_rays, sum);
     }
   }
 }

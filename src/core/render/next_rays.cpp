@@ -1,6 +1,7 @@
 #include "core/render/next_rays.hpp"
 
 #include <numbers>
+#include <optional>
 
 #include "core/geometry/angles.hpp"
 #include "core/math/vector.hpp"
@@ -25,7 +26,7 @@ struct Branch {
 
 /// A Split is all rays that surfaces of a group send on.
 struct Split {
-  Branch diffuse;
+  std::optional<Branch> diffuse;  ///< only where light is followed over diffuse bounces
   Branch mirrored;
   Branch refracted;
   std::array<MediaLists::List, lane_count> media_behind;
@@ -193,7 +194,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
     const auto is_followed = [&](const Branch& branch) {
       if ((branch.rays >> lane & 1u) == 0) return false;
       const Rgb weight = branch.weights.lane(lane);
-      const bool within = is_within_depth || &branch == &parts.diffuse;
+      const bool within = is_within_depth || (parts.diffuse && &branch == &*parts.diffuse);
       if (is_worth_it(context, state, weight, within, sample)) return true;
       if (!within && state.diffuse_bounces == 0)
         add_cutoff(context, weight, branch.directions.lane(lane), sample);
@@ -208,7 +209,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       ray_on.weight = branch.weights.lane(lane);
       ray_on.path = path;
     };
-    const bool is_diffuse = is_followed(parts.diffuse);
+    const bool is_diffuse = parts.diffuse && is_followed(*parts.diffuse);
     const bool is_mirrored = is_followed(parts.mirrored);
     const bool goes_through = is_followed(parts.refracted);
     if (!is_diffuse && !is_mirrored && !goes_through) return;
@@ -219,9 +220,9 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       diffuse.kind = RayKind::diffuse;
       ++diffuse.diffuse_bounces;
       diffuse.path_length = from.path_length();
-      diffuse.density = parts.diffuse.densities[lane];
+      diffuse.density = parts.diffuse->densities[lane];
       const bool waits = is_mirrored || goes_through;
-      describe(waits ? work.pending.push() : last, parts.diffuse, from.start(), diffuse);
+      describe(waits ? work.pending.push() : last, *parts.diffuse, from.start(), diffuse);
     }
     if (is_mirrored) {
       PathState mirrored = state;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t min_rows = 64;
 constexpr std::size_t max_rows = 512;
 /// Each cell is looked up at so many places a side.
-constexpr int places_a_side = 2;
+constexpr std::size_t places_a_side = 2;
 /// This share of the samples is drawn evenly, as the table does not know all that is in a cell.
 constexpr double even_share = 0.1;
 
@@ -58,20 +58,20 @@ Environment::Environment(const PreparedBackground& background)
       columns_(2 * rows_),
       by_row_(rows_ + 1),
       by_column_(rows_ * (columns_ + 1)) {
-  constexpr int places = places_a_side * places_a_side;
-  static_assert(places == lane_count);
+  static_assert(places_a_side * places_a_side == lane_count);
   double whole = 0;
   for (std::size_t row = 0; row < rows_; ++row) {
     double* const cells = &by_column_[row * (columns_ + 1)];
     for (std::size_t column = 0; column < columns_; ++column) {
       VectorLanes directions;
-      for (int place = 0; place < places; ++place) {
-        const double across = (place % places_a_side + 0.5) / places_a_side;
-        const double down = (place / places_a_side + 0.5) / places_a_side;
-        directions.set(
-            static_cast<std::size_t>(place),
-            direction_of_cell((static_cast<double>(column) + across) / static_cast<double>(columns_),
-                         (static_cast<double>(row) + down) / static_cast<double>(rows_)));
+      for (std::size_t place = 0; place < lane_count; ++place) {
+        const double across = 0.5 + static_cast<double>(place % places_a_side);
+        const double down = 0.5 + static_cast<double>(place / places_a_side);
+        const double turn =
+            (static_cast<double>(column) + across / places_a_side) / static_cast<double>(columns_);
+        const double height =
+            (static_cast<double>(row) + down / places_a_side) / static_cast<double>(rows_);
+        directions.set(place, direction_of_cell(turn, height));
       }
       const ColorLanes colors = background_.colors(directions, (1u << lane_count) - 1);
       const Lanes light = colors.color.x + colors.color.y + colors.color.z;
