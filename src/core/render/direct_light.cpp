@@ -61,34 +61,23 @@ void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, V
   light = select(fades, max(Lanes{}, share) * light, light);
 }
 
-/// A NumbersOfLights draws the numbers that say which points of a light surfaces see.
-class NumbersOfLights {
- public:
-  NumbersOfLights(const TraceContext& context, const PathRays& rays, RayMask some)
-      : settings_(context.frame.settings()), rays_(rays), some_(some) {}
-
-  /// Draws those of one of Settings::light_samples samples of a light.
-  void draw(std::size_t light, int sample) {
-    const auto kind = static_cast<std::uint32_t>(light % SampleDecision::kinds_of_lights);
-    const auto samples = static_cast<std::uint32_t>(settings_.light_samples);
-    for_each_ray(some_, [&](std::size_t i) {
-      const SampleWork& work = *rays_.works[i];
-      SampleId id = work.id;
-      id.index = id.index * samples + static_cast<std::uint32_t>(sample);
-      const auto drawn =
-          sample_numbers(settings_.seed, id, {static_cast<std::uint32_t>(work.rays), kind});
-      numbers_[i / lane_count].u[i % lane_count] = drawn[0];
-      numbers_[i / lane_count].v[i % lane_count] = drawn[1];
-    });
-  }
-  const LightNumbers& of_group(std::size_t group) const { return numbers_[group]; }
-
- private:
-  const Settings& settings_;
-  const PathRays& rays_;
-  RayMask some_;
-  std::array<LightNumbers, RayPacket::group_count> numbers_;
-};
+/// Draws the numbers that say which points of a light surfaces see: those of one of
+/// Settings::light_samples samples of it.
+void draw_numbers(const TraceContext& context, const PathRays& rays, RayMask some,
+                  std::size_t light, int sample, ShadowRays& shadow_rays) {
+  const Settings& settings = context.frame.settings();
+  const auto kind = static_cast<std::uint32_t>(light % SampleDecision::kinds_of_lights);
+  const auto samples = static_cast<std::uint32_t>(settings.light_samples);
+  for_each_ray(some, [&](std::size_t i) {
+    const SampleWork& work = *rays.works[i];
+    SampleId id = work.id;
+    id.index = id.index * samples + static_cast<std::uint32_t>(sample);
+    const auto drawn =
+        sample_numbers(settings.seed, id, {static_cast<std::uint32_t>(work.rays), kind});
+    shadow_rays.numbers[i / lane_count].u[i % lane_count] = drawn[0];
+    shadow_rays.numbers[i / lane_count].v[i % lane_count] = drawn[1];
+  });
+}
 
 /// FoundByRays says which surfaces send rays on that may find lights, too: diffuse rays, and those
 /// that principled surfaces scatter otherwise.
@@ -121,7 +110,7 @@ void light_principled(const SurfaceGroup& group, const LightSamples& samples, bo
 
 /// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
 RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
-               const NumbersOfLights& numbers, const FoundByRays& found_by, ShadowRays& rays) {
+               const FoundByRays& found_by, ShadowRays& rays) {
   RayMask aimed = 0;
   LightSamples& samples = rays.samples;
   samples.diffuse_shares = lanes_of(1);
@@ -129,7 +118,7 @@ RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask so
   RayPacket::for_each_group(some, [&](std::size_t i, RayMask lanes) {
     const SurfaceGroup& group = surfaces.groups[i];
     LaneMask lit = lanes_with(lanes);
-    lit &= source.sample(group.position, group.path_length, numbers.of_group(i), samples);
+    lit &= source.sample(group.position, group.path_length, rays.numbers[i], samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
     if (is_balanced) {
       // A diffuse ray has the density of the cosine over pi.
@@ -201,7 +190,6 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   const RayMask some = batch.with_starts;
   if (some == 0) return;
   const PacketStarts starts = context.data.noted_starts(batch, some);
-  NumbersOfLights numbers(context, rays, some);
   const Settings& settings = context.frame.settings();
   FoundByRays found_by{.diffuse = rays.sending_diffuse(settings.indirect)};
   if (context.data.features().principled)
@@ -211,8 +199,8 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
     const PreparedLight& source = lights[index];
     const int samples = source.has_size() ? settings.light_samples : 1;
     for (int sample = 0; sample < samples; ++sample) {
-      if (source.has_size()) numbers.draw(index, sample);
-      const RayMask sent = aim_at(source, surfaces, some, numbers, found_by, shadow_rays);
+      if (source.has_size()) draw_numbers(context, rays, some, index, sample, shadow_rays);
+      const RayMask sent = aim_at(source, surfaces, some, found_by, shadow_rays);
       const LightPaths paths = paths_to_light(context, batch, starts, sent);
       // Shadows of what has a size have no edge.
       if (context.identifies && !source.has_size())

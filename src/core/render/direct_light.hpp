@@ -12,6 +12,7 @@ struct ShadowRays {
   /// This is the part of it that rays which the surfaces send on find, too, through what is
   /// transparent. It is set where PreparedLight::is_found_by_rays().
   std::array<VectorLanes, RayPacket::group_count> found_by_rays;
+  std::array<LightNumbers, RayPacket::group_count> numbers;  ///< of lights with a size
   LightSamples samples;  ///< of a group; a new one for each would be filled with zeros first
 };
 

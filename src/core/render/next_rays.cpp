@@ -202,12 +202,17 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
     };
     // It is filled in place, which is faster than a copy.
     const auto describe = [&](PathRay& ray_on, const Branch& branch, const StartPoint& start,
-                              const PathState& path) {
+                              RayKind kind) -> PathState& {
       ray_on.origin = from.position();
       ray_on.direction = branch.directions.lane(lane);
       ray_on.start = start;
       ray_on.weight = branch.weights.lane(lane);
-      ray_on.path = path;
+      PathState& path = ray_on.path;
+      path = state;
+      path.kind = kind;
+      path.path_length = from.path_length();
+      path.density = branch.densities[lane];
+      return path;
     };
     const bool is_diffuse = parts.diffuse && is_followed(*parts.diffuse);
     const bool is_mirrored = is_followed(parts.mirrored);
@@ -216,31 +221,19 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
     sent |= RayMask{1} << lane;
     PathRay last;
     if (is_diffuse) {
-      PathState diffuse = state;
-      diffuse.kind = RayKind::diffuse;
-      ++diffuse.diffuse_bounces;
-      diffuse.path_length = from.path_length();
-      diffuse.density = parts.diffuse->densities[lane];
-      const bool waits = is_mirrored || goes_through;
-      describe(waits ? work.pending.push() : last, *parts.diffuse, from.start(), diffuse);
+      PathRay& ray_on = is_mirrored || goes_through ? work.pending.push() : last;
+      ++describe(ray_on, *parts.diffuse, from.start(), RayKind::diffuse).diffuse_bounces;
     }
     if (is_mirrored) {
-      PathState mirrored = state;
-      mirrored.kind = RayKind::reflection;
-      ++mirrored.bounces;
-      mirrored.path_length = from.path_length();
-      mirrored.density = parts.mirrored.densities[lane];
-      describe(goes_through ? work.pending.push() : last, parts.mirrored, from.start(), mirrored);
+      PathRay& ray_on = goes_through ? work.pending.push() : last;
+      ++describe(ray_on, parts.mirrored, from.start(), RayKind::reflection).bounces;
     }
     if (goes_through) {
-      PathState through = state;
-      through.kind = RayKind::refraction;
+      PathState& through =
+          describe(last, parts.refracted, from.start_behind(), RayKind::refraction);
       ++through.bounces;
-      through.path_length = from.path_length();
-      through.density = 0;
       through.media = parts.media_behind[lane];
       through.media_mark = work.media.mark();
-      describe(last, parts.refracted, from.start_behind(), through);
       stats.media_changes += context.data.is_solid(hits.hits[ray]);
     }
     take(stats, last, work, sample, next);
