@@ -32,6 +32,7 @@ class CPlace {
   }
   template <class Value>
   void read(Value& value) const {
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): a field may be a pointer
     if (size_ == sizeof value) std::memcpy(&value, place_, sizeof value);
   }
 

@@ -51,11 +51,11 @@ void meet_lights(const TraceContext& context, const PathRays& rays, PathHits& hi
   for (std::uint32_t number = 0; number < lights.size(); ++number) {
     if (!lights[number].is_visible()) continue;
     RayPacket::for_each_group(rays.all(), [&](std::size_t group, RayMask lanes) {
-      const auto [met, t] = lights[number].meet(rays.batch.lines[group]);
-      for_each_ray(lanes & mask_of(met), [&](std::size_t lane) {
+      const LightMet light = lights[number].meet(rays.batch.lines[group]);
+      for_each_ray(lanes & mask_of(light.met), [&](std::size_t lane) {
         const std::size_t ray = group * lane_count + lane;
-        if (!(t[lane] < hits.hits[ray].t)) return;
-        hits.hits[ray] = {.t = t[lane]};
+        if (!(light.t[lane] < hits.hits[ray].t)) return;
+        hits.hits[ray] = {.t = light.t[lane]};
         hits.lights[ray] = number;
         hits.on_light |= RayMask{1} << ray;
       });

@@ -65,8 +65,9 @@ Environment::Environment(const PreparedBackground& background)
     for (std::size_t column = 0; column < columns_; ++column) {
       VectorLanes directions;
       for (std::size_t place = 0; place < lane_count; ++place) {
+        const std::size_t above = place / places_a_side;
         const double across = 0.5 + static_cast<double>(place % places_a_side);
-        const double down = 0.5 + static_cast<double>(place / places_a_side);
+        const double down = 0.5 + static_cast<double>(above);
         const double turn =
             (static_cast<double>(column) + across / places_a_side) / static_cast<double>(columns_);
         const double height =

@@ -44,6 +44,7 @@ struct Layers {
   /// The roughness of the surface below, or below 0 for all there are: it is a pattern.
   double roughness = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a 0 of the compiler for one here
   auto operator<=>(const Layers&) const = default;
 };
 
