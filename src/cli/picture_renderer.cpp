@@ -89,8 +89,11 @@ std::optional<std::string> warning_of(const Image& image) {
   const RenderStats& stats = image.stats();
   const auto ended = static_cast<double>(stats.rays_beyond_depth);
   if (ended <= max_in_a_good_picture * static_cast<double>(stats.camera_rays)) return std::nullopt;
-  return fmt::format("{} rays ended at recursiondepth {} and count as black: raise recursiondepth",
-                     stats.rays_beyond_depth, image.settings().recursion_depth);
+  const Settings& settings = image.settings();
+  const bool is_black = settings.cutoff == Cutoff::black;
+  return fmt::format("{} rays ended at recursiondepth {} and {}: raise recursiondepth",
+                     stats.rays_beyond_depth, settings.recursion_depth,
+                     is_black ? "count as black" : "see the background");
 }
 
 std::string summary(const std::string& name, const Image& image) {

@@ -262,7 +262,9 @@ TEST_CASE_FIXTURE(Fixture, "a picture where many rays end at the recursion depth
   std::vector<std::string> shallow = {"render", "mirrors.crt", "--recursiondepth", "2"};
   shallow.insert(shallow.end(), small.begin(), small.end());
   CHECK(contains(run_crt(folder, shallow).err,
-                 "64 rays ended at recursiondepth 2 and count as black: raise recursiondepth"));
+                 "64 rays ended at recursiondepth 2 and see the background: raise recursiondepth"));
+  shallow.insert(shallow.end(), {"--cutoff", "black"});
+  CHECK(contains(run_crt(folder, shallow).err, "and count as black: raise recursiondepth"));
   CHECK_FALSE(contains(run_crt(folder, {"render", "ball.crt"}).err, "warning"));
 }
 
