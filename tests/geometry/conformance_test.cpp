@@ -247,7 +247,9 @@ TEST_CASE(
         REQUIRE(shape.bounds().grown(room).touches({point.position, point.position}));
         REQUIRE(std::abs(glm::length(point.normal) - 1) < 1e-14);
         const double along = glm::dot(point.normal, ray.direction) / glm::length(ray.direction);
-        if (std::abs(along) > 1e-6) REQUIRE((along < 0) == crossing.entering);
+        // That of an implicit solid is against the ray where the field has a corner or is flat.
+        const bool has_normal = point.normal != core::unit_vector(-ray.direction);
+        if (has_normal && std::abs(along) > 1e-6) REQUIRE((along < 0) == crossing.entering);
         REQUIRE(std::isfinite(point.u));
         REQUIRE(std::isfinite(point.v));
       }
