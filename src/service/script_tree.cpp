@@ -84,7 +84,8 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
         attribute.value_span = place_of(syntax.value->span);
         describe_value(program_, *syntax.value, attribute);
       }
-      nodes_[owner].attributes.push_back(std::move(attribute));
+      // A material that is derived, and belongs to nothing, is no node.
+      if (owner != ScriptNode::no_parent) nodes_[owner].attributes.push_back(std::move(attribute));
       // A variable's name says nothing more than the attribute does.
       if (syntax.value && !std::holds_alternative<lang::Name>(syntax.value->node))
         visit(syntax.value);
