@@ -34,36 +34,43 @@ Vec3 to_vec3(const double* numbers, const char* argument) {
 
 // ---- materials ----------------------------------------------------------------------------------
 
-template <>
-crt_material defaults<crt_material>() {
-  crt_material out{};
+namespace {
+
+template <class C, class Kind>
+C defaults_of_material() {
+  C out{};
   out.struct_size = sizeof out;
-  put_fields(out, Material{});
+  put_fields(out, Kind{});
   return out;
 }
 
-Material to_material(const crt_material* material) {
+template <class Kind, class C>
+Kind material_of(const C* material) {
   const auto given = taken(material, "material");
-  Material result;
+  Kind result;
   take_fields(result, given, "material");
   take_patterns(result, given, "material");
   return result;
+}
+
+}  // namespace
+
+template <>
+crt_material defaults<crt_material>() {
+  return defaults_of_material<crt_material, Material>();
 }
 
 template <>
 crt_principled defaults<crt_principled>() {
-  crt_principled out{};
-  out.struct_size = sizeof out;
-  put_fields(out, PrincipledMaterial{});
-  return out;
+  return defaults_of_material<crt_principled, PrincipledMaterial>();
+}
+
+Material to_material(const crt_material* material) {
+  return material_of<Material>(material);
 }
 
 PrincipledMaterial to_material(const crt_principled* material) {
-  const auto given = taken(material, "material");
-  PrincipledMaterial result;
-  take_fields(result, given, "material");
-  take_patterns(result, given, "material");
-  return result;
+  return material_of<PrincipledMaterial>(material);
 }
 
 // ---- lights -------------------------------------------------------------------------------------

@@ -156,12 +156,12 @@ LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const Pa
   return {.blocked = data.shadowed_each(batch, starts, some, work)};
 }
 
-/// Adds what gets through along shadow rays that were sent, times a factor, and is sent back.
+/// Adds what gets through along shadow rays that were sent, times a factor, and is sent back. Those
+/// of `absorbed` start in media that absorb.
 void add_unblocked(TraceContext& context, const PathRays& rays, const LightPaths& paths,
-                   RayMask sent, double factor, bool is_found_by_rays,
+                   RayMask sent, RayMask absorbed, double factor, bool is_found_by_rays,
                    const ShadowRays& shadow_rays, PathLight& sum) {
   Workspace& work = context.work;
-  const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   const RayMask unblocked = sent & ~paths.blocked;
   const RayMask filtered = paths.filtered | (unblocked & absorbed);
   RayPacket::for_each_group(unblocked & ~filtered, [&](std::size_t i, RayMask lanes) {
@@ -194,6 +194,7 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   FoundByRays found_by{.diffuse = rays.sending_diffuse(settings.indirect)};
   if (context.data.features().principled)
     found_by.scattered = rays.within_depth(settings.recursion_depth);
+  const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   const std::vector<PreparedLight>& lights = context.frame.lights();
   for (std::size_t index = 0; index < lights.size(); ++index) {
     const PreparedLight& source = lights[index];
@@ -205,7 +206,7 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
       // Shadows of what has a size have no edge.
       if (context.identifies && !source.has_size())
         identify_shadows(rays, index, paths.blocked | paths.filtered);
-      add_unblocked(context, rays, paths, sent, 1.0 / samples, source.is_found_by_rays(),
+      add_unblocked(context, rays, paths, sent, absorbed, 1.0 / samples, source.is_found_by_rays(),
                     shadow_rays, sum);
     }
   }
