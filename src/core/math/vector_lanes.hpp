@@ -131,17 +131,6 @@ inline VectorLanes unit_vector(const VectorLanes& v) {
   return scaled / sqrt(square.hi + square.lo);
 }
 
-/// Returns directions across others of unit length, and across each other.
-///
-/// Source: Duff et al., Building an orthonormal basis, revisited, 2017.
-inline std::array<VectorLanes, 2> directions_across(const VectorLanes& n) {
-  const Lanes sign = select(n.z < 0.0, lanes_of(-1), lanes_of(1));
-  const Lanes a = -1.0 / (sign + n.z);
-  const Lanes b = n.x * n.y * a;
-  return {VectorLanes{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x},
-          VectorLanes{b, sign + n.y * n.y * a, -n.y}};
-}
-
 /// Splits four vectors as direction_and_length() splits each, and writes the results where they
 /// stay. GCC copies structs by halves of these vectors. A read of a whole one that follows waits
 /// until both halves have reached the cache.

@@ -7,6 +7,7 @@
 #include "core/math/vector.hpp"
 #include "core/render/behind_surfaces.hpp"
 #include "core/shading/fresnel.hpp"
+#include "core/shading/microfacets.hpp"
 
 namespace crt::core {
 
@@ -66,8 +67,7 @@ Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const Sur
   const auto [x, y] = point_of_disc(u, v);
   const Lanes upwards = sqrt(max(Lanes{}, 1.0 - x * x - y * y));
   const VectorLanes& normal = from.phong.normal;
-  const auto [a, b] = directions_across(normal);
-  const VectorLanes directions = x * a + y * b + upwards * normal;
+  const VectorLanes directions = NormalFrame<Lanes>(normal).to_world({x, y, upwards});
   branch.directions = kept_on_side(directions, from.face_normal);
   branch.weights = from.phong.diffuse * rays.weights[group] * from.phong.color;
   branch.densities = (1 / std::numbers::pi) * upwards;

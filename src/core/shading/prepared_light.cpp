@@ -9,6 +9,7 @@
 #include "core/geometry/angles.hpp"
 #include "core/math/direction_and_length.hpp"
 #include "core/shading/environment.hpp"
+#include "core/shading/microfacets.hpp"
 
 namespace crt::core {
 
@@ -27,8 +28,8 @@ VectorLanes directions_in_cone(const VectorLanes& axis, const Lanes& cone_versin
   versines = (x * x + y * y) * cone_versine;
   const Lanes outwards =
       sqrt(cone_versine * (2.0 - versines));  // the sine, by distance on the disc
-  const auto [a, b] = directions_across(axis);
-  return (1.0 - versines) * axis + outwards * x * a + outwards * y * b;
+  const NormalFrame<Lanes> frame(axis);
+  return (1.0 - versines) * axis + outwards * x * frame.x + outwards * y * frame.y;
 }
 
 }  // namespace
@@ -106,9 +107,9 @@ PreparedLight::PreparedLight(const DiscLight& light)
       is_visible_(light.visible),
       is_two_sided_(light.two_sided),
       area_over_pi_(light.radius * light.radius) {
-  const auto [a, b] = directions_across(lanes_of(axis_));
-  edge_a_ = radius_ * a.lane(0);
-  edge_b_ = radius_ * b.lane(0);
+  const NormalFrame<double> frame(axis_);
+  edge_a_ = radius_ * frame.x;
+  edge_b_ = radius_ * frame.y;
 }
 
 PreparedLight::PreparedLight(const RectangleLight& light)
