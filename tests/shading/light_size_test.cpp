@@ -26,9 +26,8 @@ struct Seen {
 };
 
 /// Samples a light at a point of a surface with such a normal.
-Seen seen_from(const crt::Light& light, const Vec3& point, const Vec3& normal,
-               std::uint32_t samples = 1u << 16) {
-  const PreparedLight prepared(light, crt::FalloffModel::light);
+Seen seen_of(const PreparedLight& prepared, const Vec3& point, const Vec3& normal,
+             std::uint32_t samples = 1u << 16) {
   const VectorLanes points = lanes_of(point);
   Seen seen{.nearest = std::numeric_limits<double>::infinity()};
   for (std::uint32_t i = 0; i < samples; i += lane_count) {
@@ -51,6 +50,11 @@ Seen seen_from(const crt::Light& light, const Vec3& point, const Vec3& normal,
     }
   }
   return seen;
+}
+
+Seen seen_from(const crt::Light& light, const Vec3& point, const Vec3& normal,
+               std::uint32_t samples = 1u << 16) {
+  return seen_of(PreparedLight(light, crt::FalloffModel::light), point, normal, samples);
 }
 
 /// Returns what a polygon of radiance 1 gives a surface at the origin, by Lambert's formula.
@@ -110,13 +114,89 @@ TEST_CASE("a rectangle light gives what Lambert's formula says") {
     const double exact = irradiance_over_pi(
         {corner, corner + edge_a, corner + edge_a + edge_b, corner + edge_b}, {0, 1, 0});
     CHECK(seen_from(light, {0, 0, 0}, {0, 1, 0}).brightness ==
-          doctest::Approx(exact).epsilon(1e-5));
+          doctest::Approx(exact).epsilon(5e-4));
   }
   // x and y as edges shine towards z.
   const crt::RectangleLight towards_z{
       .corner = {0, 0, 0}, .edge_a = {1, 0, 0}, .edge_b = {0, 1, 0}};
   CHECK(seen_from(towards_z, {0.5, 0.5, 1}, {0, 0, -1}).brightness > 0.1);
   CHECK(seen_from(towards_z, {0.5, 0.5, -1}, {0, 0, 1}).brightness == 0);
+}
+
+TEST_CASE("no sample of a rectangle with right angles is much brighter than others") {
+  // All are as bright as the solid angle over pi, however near the point is to one corner.
+  const crt::RectangleLight light{
+      .corner = {-0.1, 0.02, -0.1}, .edge_a = {4, 0, 0}, .edge_b = {0, 0, 3}, .two_sided = true};
+  const Seen seen = seen_from(light, {0, 0, 0}, {0, 1, 0});
+  CHECK(seen.largest <= 2);
+  const std::vector<Vec3> corners = {
+      {-0.1, 0.02, -0.1}, {3.9, 0.02, -0.1}, {3.9, 0.02, 2.9}, {-0.1, 0.02, 2.9}};
+  CHECK(seen.brightness == doctest::Approx(irradiance_over_pi(corners, {0, 1, 0})).epsilon(1e-5));
+}
+
+TEST_CASE("samples of rectangles lie on them, spread evenly over the solid angle") {
+  const RectangleFrame frame{
+      .x = {0.6, 0.8, 0}, .y = {-0.8, 0.6, 0}, .z = {0, 0, 1}, .width = 2, .height = 0.7};
+  for (const Vec3& corner : {Vec3(-1, -0.3, 0.5), Vec3(0.2, 0.1, -0.3), Vec3(-3, 1, 0.1)}) {
+    const SphericalRectangle seen(frame, lanes_of(corner));
+    constexpr int steps = 64;
+    Vec3 mean(0, 0, 0);
+    for (int i = 0; i < steps; ++i) {
+      for (int k = 0; k < steps; k += static_cast<int>(lane_count)) {
+        LightNumbers numbers;
+        for (std::size_t lane = 0; lane < lane_count; ++lane) {
+          numbers.u[lane] = (i + 0.5) / steps;
+          numbers.v[lane] = (k + static_cast<double>(lane) + 0.5) / steps;
+        }
+        const VectorLanes points = seen.sample(numbers);
+        for (std::size_t lane = 0; lane < lane_count; ++lane) {
+          const Vec3 offset = points.lane(lane) - corner;
+          const double along_x = glm::dot(offset, frame.x);
+          const double along_y = glm::dot(offset, frame.y);
+          REQUIRE(std::abs(glm::dot(offset, frame.z)) < 1e-12);
+          REQUIRE(along_x >= -1e-9);
+          REQUIRE(along_x <= frame.width + 1e-9);
+          REQUIRE(along_y >= -1e-9);
+          REQUIRE(along_y <= frame.height + 1e-9);
+          mean += glm::normalize(points.lane(lane)) / double{steps * steps};
+        }
+      }
+    }
+    // The vector irradiance of Lambert's formula is the mean direction times the solid angle.
+    const std::vector<Vec3> corners = {corner, corner + frame.width * frame.x,
+                                       corner + frame.width * frame.x + frame.height * frame.y,
+                                       corner + frame.height * frame.y};
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+      const double exact = pi * irradiance_over_pi(corners, axis);
+      CHECK(std::abs(glm::dot(mean, axis)) * seen.solid_angles()[0] ==
+            doctest::Approx(exact).epsilon(1e-3).scale(0.1));
+    }
+  }
+}
+
+TEST_CASE("pieces of surfaces give what lights of their shape do") {
+  const auto of_piece = [](const SurfacePiece& piece, bool two_sided) {
+    return PreparedLight(piece, Rgb(1), two_sided);
+  };
+  const PreparedLight triangle = of_piece({.kind = SurfacePiece::Kind::triangle,
+                                           .origin = {-1, 2, 0.5},
+                                           .edge_a = {2, 0.1, 0},
+                                           .edge_b = {0.7, -0.4, 1.5},
+                                           .normal = glm::normalize(Vec3(0.15, -3, -0.87))},
+                                          true);
+  CHECK(
+      seen_of(triangle, {0, 0, 0}, {0, 1, 0}).brightness ==
+      doctest::Approx(irradiance_over_pi({{-1, 2, 0.5}, {1, 2.1, 0.5}, {-0.3, 1.6, 2}}, {0, 1, 0}))
+          .epsilon(1e-4));
+  // An endless tube overhead gives radius over distance.
+  const PreparedLight tube = of_piece({.kind = SurfacePiece::Kind::tube,
+                                       .origin = {-50, 3, 0},
+                                       .edge_a = {100, 0, 0},
+                                       .radius = 0.5},
+                                      false);
+  CHECK(seen_of(tube, {0, 0, 0}, {0, 1, 0}).brightness ==
+        doctest::Approx(0.5 / 3).epsilon(2e-3));
+  CHECK(seen_of(tube, {0, 3, 0}, {0, 1, 0}).brightness == 0);  // from within
 }
 
 TEST_CASE("point and parallel lights with a size give what faces them as much as without") {

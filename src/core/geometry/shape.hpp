@@ -19,6 +19,7 @@
 #include "core/geometry/placed_solid.hpp"
 #include "core/geometry/shape_span.hpp"
 #include "core/geometry/surface.hpp"
+#include "core/geometry/surface_piece.hpp"
 #include "core/ray/object_ray.hpp"
 #include "crt/primitives.hpp"
 
@@ -201,6 +202,11 @@ class Shape {
   /// coincide.
   virtual std::uint32_t face_count() const = 0;
   virtual Surface surface(std::uint32_t face) const = 0;
+  /// Appends all faces in order where a placement puts them, for drawing points of them. Returns
+  /// false, and appends nothing, if it has no formula for that.
+  virtual bool append_pieces(const Placement& /*placement*/, SurfacePieces& /*pieces*/) const {
+    return false;
+  }
 
   /// Returns what its facets have beyond what rays meet, or null. Only meshes may have any.
   virtual const FacetAttributes* facet_attributes() const { return nullptr; }

@@ -39,9 +39,9 @@ void check_scene(const Scene& scene) {
   validate(scene.settings);
 }
 
-/// Returns the lights of a scene, or a head light where there are none and it is wanted.
-std::vector<Light> lights_of(const Scene& scene) {
-  if (!scene.lights.empty() || !scene.settings.head_light || scene.settings.compat != 0)
+/// Returns the lights of a scene, or a head light where nothing gives light off and it is wanted.
+std::vector<Light> lights_of(const Scene& scene, bool emits) {
+  if (!scene.lights.empty() || emits || !scene.settings.head_light || scene.settings.compat != 0)
     return scene.lights;
   if (scene.camera.projection == Projection::orthographic)
     return {ParallelLight{.from = scene.camera.position, .pointing = scene.camera.pointing}};
@@ -109,7 +109,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   const auto begin = std::chrono::steady_clock::now();
   check_scene(scene);
   scene_ = {.entities = {},
-            .lights = lights_of(scene),
+            .lights = {},
             .camera = scene.camera,
             .background = scene.background,
             .settings = scene.settings};
@@ -135,6 +135,10 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
     workers.poll();
     materials_.emplace_back(material, MaterialPools{textures_, normals_, layer_tables_});
   }
+  const bool emits = std::any_of(materials_.begin(), materials_.end(),
+                                 [](const PreparedMaterial& material) { return material.emits; });
+  scene_.lights = lights_of(scene, emits);
+  chosen_lights_ = ChosenLights::of(*compiled_, materials_, scene_.lights);
   opacity_ = opacity_of(accelerator_->compiled(), materials_);
   background_ =
       std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
@@ -153,7 +157,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   for (std::string& warning : normals_.warnings()) warnings_.push_back(std::move(warning));
   if (compiled_->leaves.empty() && !has_instances()) {
     warnings_.emplace_back("the scene has no entities: only the background shows");
-  } else if (scene.lights.empty()) {
+  } else if (scene.lights.empty() && !emits) {
     warn_of_no_light();
   }
   warn_of_camera();
@@ -170,6 +174,7 @@ MemoryUse PreparedData::memory() const {
   use.primitives += bytes_of(geometry_->entities) + bytes_of(geometry_->entity_ids);
   use.materials = bytes_of(geometry_->materials) + bytes_of(materials_) + textures_.bytes() +
                   normals_.bytes() + layer_tables_.bytes() +
+                  (chosen_lights_ == nullptr ? 0 : chosen_lights_->bytes()) +
                   (opacity_.of_materials.capacity() + opacity_.of_objects.capacity()) / CHAR_BIT;
   return use;
 }

@@ -17,6 +17,7 @@
 #include "core/intersect/answers.hpp"
 #include "core/intersect/ray_workspace.hpp"
 #include "core/intersect/spare_workspace.hpp"
+#include "core/prepare/chosen_lights.hpp"
 #include "core/prepare/features.hpp"
 #include "core/ray/object_ray.hpp"
 #include "core/ray/ray_packet.hpp"
@@ -238,6 +239,8 @@ class PreparedData {
   const PreparedBackground& background() const { return *background_; }
   /// Returns the background as a light, or null if it is none.
   const Environment* environment() const { return environment_.get(); }
+  /// Returns the lights of which a point asks one, or null if there are none.
+  const ChosenLights* chosen_lights() const { return chosen_lights_.get(); }
   const Features& features() const { return features_; }
   /// Returns lights, camera, background and settings as given (and checked), without entities.
   const Scene& scene() const { return scene_; }
@@ -271,6 +274,7 @@ class PreparedData {
   Opacity opacity_;
   std::unique_ptr<const PreparedBackground> background_;
   std::unique_ptr<const Environment> environment_;
+  std::unique_ptr<const ChosenLights> chosen_lights_;
   Features features_;
   // These point into the geometry.
   const Accelerator* accelerator_ = nullptr;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/math/vector.hpp"
+#include "core/render/found_light.hpp"
 #include "core/render/sample_identity.hpp"
 #include "core/render/shadow.hpp"
 
@@ -12,13 +13,15 @@ namespace crt::core {
 
 namespace {
 
-/// Returns how far rounding may put a light from surfaces that it is meant to be on.
+/// Returns how far rounding may put a light from surfaces that it is meant to be on. At the limb of
+/// a ball a line that passes by some more is much shorter or longer.
 Lanes light_errors(const VectorLanes& points, const LightSamples& light) {
   constexpr double roundings = 16;
   const Lanes error =
       roundings * unit_roundoff *
       fma(light.distances, largest_component(light.directions), largest_component(points));
-  return select(light.distances == std::numeric_limits<double>::infinity(), Lanes{}, error);
+  const Lanes along = error + sqrt(error * light.radii);
+  return select(light.distances == std::numeric_limits<double>::infinity(), Lanes{}, along);
 }
 
 /// Lets shadow rays start at the surfaces that any light makes brighter.
@@ -61,12 +64,11 @@ void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, V
   light = select(fades, max(Lanes{}, share) * light, light);
 }
 
-/// Draws the numbers that say which points of a light surfaces see: those of one of
-/// Settings::light_samples samples of it.
+/// Draws the numbers of a SampleDecision that say which points of a light surfaces see: those of
+/// one of Settings::light_samples samples of it.
 void draw_numbers(const TraceContext& context, const PathRays& rays, RayMask some,
-                  std::size_t light, int sample, ShadowRays& shadow_rays) {
+                  std::uint32_t kind, int sample, ShadowRays& shadow_rays) {
   const Settings& settings = context.frame.settings();
-  const auto kind = static_cast<std::uint32_t>(light % SampleDecision::kinds_of_lights);
   const auto samples = static_cast<std::uint32_t>(settings.light_samples);
   for_each_ray(some, [&](std::size_t i) {
     const SampleWork& work = *rays.works[i];
@@ -74,8 +76,10 @@ void draw_numbers(const TraceContext& context, const PathRays& rays, RayMask som
     id.index = id.index * samples + static_cast<std::uint32_t>(sample);
     const auto drawn =
         sample_numbers(settings.seed, id, {static_cast<std::uint32_t>(work.rays), kind});
-    shadow_rays.numbers[i / lane_count].u[i % lane_count] = drawn[0];
-    shadow_rays.numbers[i / lane_count].v[i % lane_count] = drawn[1];
+    LightNumbers& numbers = shadow_rays.numbers[i / lane_count];
+    numbers.u[i % lane_count] = drawn[0];
+    numbers.v[i % lane_count] = drawn[1];
+    numbers.choice[i % lane_count] = drawn[2];
   });
 }
 
@@ -108,8 +112,42 @@ void light_principled(const SurfaceGroup& group, const LightSamples& samples, bo
   by_rays = select(lanes, factor * (found_bodies + found_others), by_rays);
 }
 
+/// A Source is a light that all surfaces ask or, if it is null, a light that is chosen for each.
+struct Source {
+  const PreparedLight* light;
+  const ChosenLights* chosen;
+
+  /// Returns whether rays may find it, too.
+  bool is_found_by_rays() const { return light == nullptr || light->is_found_by_rays(); }
+};
+
+/// Takes a sample of a light for each of some surfaces of a group. Where rays do not find that
+/// light, they are taken out of `found_by`. Returns where it shines.
+LaneMask sample_chosen(const ChosenLights& chosen, const SurfaceGroup& group, RayMask some,
+                       const LightNumbers& numbers, LightSamples& samples, RayMask& found_by) {
+  LaneMask lit{};
+  for_each_ray(some, [&](std::size_t lane) {
+    const PackedDirection normal(group.face_normal.lane(lane));
+    const LightTree::Choice choice =
+        chosen.tree().choose({group.position.lane(lane), normal.direction()}, numbers.choice[lane]);
+    if (choice.probability == 0) return;
+    const PreparedLight& light = chosen.lights()[choice.light];
+    LightSamples of_light;
+    const LaneMask own = lanes_with(RayMask{1} << lane);
+    lit |= own & light.sample(group.position, group.path_length, numbers, of_light);
+    samples.directions = select(own, of_light.directions, samples.directions);
+    samples.distances = select(own, of_light.distances, samples.distances);
+    samples.intensities =
+        select(own, of_light.intensities / choice.probability, samples.intensities);
+    samples.colors = select(own, of_light.colors, samples.colors);
+    samples.radii = select(own, of_light.radii, samples.radii);
+    if (!light.is_found_by_rays()) found_by &= ~(RayMask{1} << lane);
+  });
+  return lit;
+}
+
 /// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
-RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
+RayMask aim_at(const Source& source, const Surfaces& surfaces, RayMask some,
                const FoundByRays& found_by, ShadowRays& rays) {
   RayMask aimed = 0;
   LightSamples& samples = rays.samples;
@@ -117,19 +155,22 @@ RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask so
   const bool is_balanced = source.is_found_by_rays();
   RayPacket::for_each_group(some, [&](std::size_t i, RayMask lanes) {
     const SurfaceGroup& group = surfaces.groups[i];
+    RayMask found = lanes;
     LaneMask lit = lanes_with(lanes);
-    lit &= source.sample(group.position, group.path_length, rays.numbers[i], samples);
+    lit &= source.light == nullptr
+               ? sample_chosen(*source.chosen, group, lanes, rays.numbers[i], samples, found)
+               : source.light->sample(group.position, group.path_length, rays.numbers[i], samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
+    const FoundByRays of_group{.diffuse = RayPacket::lanes(found_by.diffuse, i) & found,
+                               .scattered = RayPacket::lanes(found_by.scattered, i) & found};
     if (is_balanced) {
       // A diffuse ray has the density of the cosine over pi.
       const Lanes cosine = max(Lanes{}, dot(samples.directions, group.phong.normal));
-      const Lanes by_ray = select(lanes_with(RayPacket::lanes(found_by.diffuse, i)),
-                                  (1 / std::numbers::pi) * cosine, Lanes{});
+      const Lanes by_ray =
+          select(lanes_with(of_group.diffuse), (1 / std::numbers::pi) * cosine, Lanes{});
       samples.diffuse_shares = balanced<Lanes>(samples.densities(), by_ray);
     }
     direct_light(group.phong, samples, lit, rays.light[i]);
-    const FoundByRays of_group{.diffuse = RayPacket::lanes(found_by.diffuse, i),
-                               .scattered = RayPacket::lanes(found_by.scattered, i)};
     VectorLanes& by_rays = rays.found_by_rays[i];
     if (is_balanced) by_rays = select(lanes_with(of_group.diffuse), rays.light[i], VectorLanes{});
     if (group.principled_rays != 0)
@@ -195,21 +236,26 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   if (context.data.features().principled)
     found_by.scattered = rays.within_depth(settings.recursion_depth);
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
-  const std::vector<PreparedLight>& lights = context.frame.lights();
-  for (std::size_t index = 0; index < lights.size(); ++index) {
-    const PreparedLight& source = lights[index];
-    const int samples = source.has_size() ? settings.light_samples : 1;
+  const auto add = [&](const Source& source, bool has_size, std::uint32_t kind, std::size_t index) {
+    const int samples = has_size ? settings.light_samples : 1;
     for (int sample = 0; sample < samples; ++sample) {
-      if (source.has_size()) draw_numbers(context, rays, some, index, sample, shadow_rays);
+      if (has_size) draw_numbers(context, rays, some, kind, sample, shadow_rays);
       const RayMask sent = aim_at(source, surfaces, some, found_by, shadow_rays);
       const LightPaths paths = paths_to_light(context, batch, starts, sent);
       // Shadows of what has a size have no edge.
-      if (context.identifies && !source.has_size())
+      if (context.identifies && !has_size)
         identify_shadows(rays, index, paths.blocked | paths.filtered);
       add_unblocked(context, rays, paths, sent, absorbed, 1.0 / samples, source.is_found_by_rays(),
                     shadow_rays, sum);
     }
+  };
+  for (const std::uint32_t index : context.frame.asked_lights()) {
+    const PreparedLight& light = context.frame.lights()[index];
+    add({.light = &light, .chosen = nullptr}, light.has_size(),
+        index % SampleDecision::kinds_of_lights, index);
   }
+  if (const ChosenLights* const chosen = context.data.chosen_lights())
+    add({.light = nullptr, .chosen = chosen}, true, SampleDecision::chosen_light, 0);
 }
 
 }  // namespace
@@ -218,11 +264,13 @@ PathLight direct_light(TraceContext& context, const PathRays& rays, const Surfac
                        ShadowRays& shadow_rays) {
   PathLight light;
   if (surfaces.rays == 0) return light;
-  RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask) {
+  RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {
     const SurfaceGroup& group = surfaces.groups[i];
     light.colors[i] = ambient_light(context.frame.ambient(), context.frame.settings().ambient_model,
                                     group.phong.color, group.reflectivity, group.transparency);
-    if (context.data.features().emission) light.colors[i] = light.colors[i] + group.emission;
+    if (!context.data.features().emission) return;
+    const Lanes shares = shares_of_emission(context, rays, i, lanes, group);
+    light.colors[i] = light.colors[i] + shares * group.emission;
   });
   add_lights(context, rays, surfaces, shadow_rays, light);
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/base/invalid_index.hpp"
 #include "core/math/vector.hpp"
 #include "core/render/media_order.hpp"
 
@@ -64,6 +65,17 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
     draws_numbers_ = draws_numbers_ || lights_.back().has_size();
     shows_lights_ = shows_lights_ || lights_.back().is_visible();
   }
+  const ChosenLights* const chosen = data.chosen_lights();
+  numbers_of_chosen_.assign(lights_.size(), invalid_index);
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < lights_.size(); ++i) {
+    if (chosen != nullptr && chosen->has_lights_of_scene() && lights_[i].has_extent()) {
+      numbers_of_chosen_[i] = count++;
+    } else {
+      asked_lights_.push_back(i);
+    }
+  }
+  draws_numbers_ = draws_numbers_ || chosen != nullptr;
   if (settings.indirect > 0) ambient_ = Rgb(0);
   draws_numbers_ = draws_numbers_ || settings.indirect > 0 || features().principled;
   if (features().gain > 1) {

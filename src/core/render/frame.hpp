@@ -29,6 +29,10 @@ class Frame {
   std::size_t subpixel_count() const { return subpixel_count_; }
   const std::vector<PicturePlaceLanes>& subpixels() const { return subpixels_; }
   const std::vector<PreparedLight>& lights() const { return lights_; }
+  /// Returns the numbers of those lights that every point asks.
+  const std::vector<std::uint32_t>& asked_lights() const { return asked_lights_; }
+  /// Returns a light's number among the ChosenLights, or invalid_index if it is none of them.
+  std::uint32_t number_of_chosen(std::uint32_t light) const { return numbers_of_chosen_[light]; }
 
   /// Returns whether samples draw numbers beyond those of their place and lens.
   bool draws_numbers() const { return draws_numbers_; }
@@ -69,6 +73,8 @@ class Frame {
   std::size_t subpixel_count_;
   std::vector<PicturePlaceLanes> subpixels_;
   std::vector<PreparedLight> lights_;
+  std::vector<std::uint32_t> asked_lights_;
+  std::vector<std::uint32_t> numbers_of_chosen_;
   Rgb ambient_{0, 0, 0};
   std::optional<PreparedLight> environment_;
   bool draws_numbers_ = false;

@@ -212,6 +212,8 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       path.kind = kind;
       path.path_length = from.path_length();
       path.density = branch.densities[lane];
+      if (context.data.chosen_lights() != nullptr)
+        path.normal = PackedDirection(surfaces.groups[group].face_normal.lane(lane));
       return path;
     };
     const bool is_diffuse = parts.diffuse && is_followed(*parts.diffuse);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/invalid_index.hpp"
+#include "core/render/found_light.hpp"
 #include "core/render/next_rays.hpp"
 #include "core/render/sample_identity.hpp"
 
@@ -28,16 +30,6 @@ void clamp_bounced(const TraceContext& context, const PathRays& rays, PathLight&
                             });
 }
 
-/// Returns the shares of what rays find of a light, of which the surfaces that they come from may
-/// have taken samples. They meet it at t.
-Lanes shares_of_rays(const PathRays& rays, std::size_t group, const PreparedLight& light,
-                     const Lanes& t) {
-  const Lanes own = rays.densities(group);
-  if (all(own == 0.0)) return lanes_of(1);
-  const Lanes share = balanced<Lanes>(own, light.densities(rays.batch.lines[group], t));
-  return select(own > 0.0, share, lanes_of(1));
-}
-
 /// Adds what the rays see that hit nothing. Only to the camera the background may be transparent.
 /// After a diffuse bounce it is there only as far as it is a light.
 void add_background(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
@@ -57,7 +49,8 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
     VectorLanes& colors = light.colors[group];
     colors = (is_seen_through ? seen.alpha * weights : weights) * seen.color;
     if (const RayMask some = RayPacket::lanes(bounced, group) & lanes; some != 0) {
-      const Lanes shares = shares_of_rays(rays, group, *environment, Lanes{});
+      const Lanes shares =
+          shares_of_rays(context, rays, group, *environment, invalid_index, Lanes{});
       const VectorLanes lit = shares * lanes_of(environment->color()) * colors;
       colors = select(lanes_with(some), lit, colors);
     }
@@ -77,7 +70,9 @@ void add_visible_lights(const TraceContext& context, const PathRays& rays, const
   for_each_ray(light.rays, [&](std::size_t i) {
     const PreparedLight& source = context.frame.lights()[hits.lights[i]];
     const std::size_t group = i / lane_count;
-    const Lanes share = shares_of_rays(rays, group, source, lanes_of(hits.hits[i].t));
+    const Lanes share =
+        shares_of_rays(context, rays, group, source, context.frame.number_of_chosen(hits.lights[i]),
+                       lanes_of(hits.hits[i].t));
     light.colors[group].set(
         i % lane_count,
         share[i % lane_count] * (rays.weights[group].lane(i % lane_count) * source.color()));

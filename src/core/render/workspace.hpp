@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/math/packed_direction.hpp"
 #include "core/prepare/prepared_data.hpp"
 #include "core/render/first_hit.hpp"
 #include "core/render/media_along_ray.hpp"
@@ -25,6 +26,7 @@ struct PathState {
   RayKind kind = RayKind::camera;
   int bounces = 0;  ///< in mirrors and glass, before this ray
   int diffuse_bounces = 0;
+  PackedDirection normal;  ///< of the surface, where there are ChosenLights
   double path_length = 0;  ///< from the camera to the ray's origin
   /// This is the density by solid angle with which its direction was drawn. It is 0 for rays whose
   /// surfaces have taken no samples of lights instead.

@@ -21,6 +21,7 @@ struct SampleDecision {
   static constexpr std::uint32_t max_kinds = 1u << 15;
   static constexpr std::uint32_t diffuse_direction = max_kinds - 1;
   static constexpr std::uint32_t scattered_direction = max_kinds - 2;
+  static constexpr std::uint32_t chosen_light = max_kinds - 3;
   /// The points of lights have the kinds from 0 up to before this. More lights share them.
   static constexpr std::uint32_t kinds_of_lights = max_kinds / 2;
 };

@@ -1,5 +1,7 @@
 #include "core/shading/prepared_light.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <crt/elementary.hpp>
 #include <glm/geometric.hpp>
@@ -15,21 +17,11 @@ namespace crt::core {
 
 namespace {
 
-/// This bound keeps results finite right at a light, where falloff / D^2 has no bound.
-constexpr double largest_intensity = 0x1p100;
-
-/// Returns directions within a cone about an axis of unit length, spread evenly over it. The cone's
-/// half angle has this versine, 1 - cos. Those of the directions from the axis go into `versines`.
-///
-/// Source: Shirley, Wang, Zimmerman, Monte Carlo techniques for direct lighting calculations, 1996.
-VectorLanes directions_in_cone(const VectorLanes& axis, const Lanes& cone_versine,
-                               const LightNumbers& numbers, Lanes& versines) {
-  const auto [x, y] = point_of_disc(numbers.u, numbers.v);
-  versines = (x * x + y * y) * cone_versine;
-  const Lanes outwards =
-      sqrt(cone_versine * (2.0 - versines));  // the sine, by distance on the disc
-  const NormalFrame<Lanes> frame(axis);
-  return (1.0 - versines) * axis + outwards * x * frame.x + outwards * y * frame.y;
+/// Returns how far an ellipse reaches along each coordinate.
+Vec3 ellipse_extents(const Vec3& half_axis_a, const Vec3& half_axis_b) {
+  Vec3 extents;
+  for (int i = 0; i < 3; ++i) extents[i] = elementary::hypot(half_axis_a[i], half_axis_b[i]);
+  return extents;
 }
 
 }  // namespace
@@ -39,6 +31,73 @@ PreparedLight::PreparedLight(const Light& light, FalloffModel falloff_model,
     : PreparedLight(std::visit([](const auto& kind) { return PreparedLight(kind); }, light)) {
   counts_path_ = falloff_model == FalloffModel::path;
   environment_ = environment;
+  is_found_by_rays_ = is_visible_ || kind_ == Kind::environment;
+}
+
+PreparedLight::PreparedLight(const SurfacePiece& piece, const Rgb& radiance, bool is_two_sided)
+    : kind_(Kind::sphere),
+      color_(radiance),
+      ambient_(0),
+      origin_(piece.origin),
+      radius_(piece.radius),
+      has_size_(true),
+      is_found_by_rays_(true),
+      is_two_sided_(is_two_sided),
+      edge_a_(piece.edge_a),
+      edge_b_(piece.edge_b) {
+  const double parallelogram = glm::length(glm::cross(edge_a_, edge_b_));
+  switch (piece.kind) {
+    case SurfacePiece::Kind::sphere:
+      break;
+    case SurfacePiece::Kind::disc:
+      kind_ = Kind::disc;
+      set_flat(piece.normal, std::numbers::pi * parallelogram);
+      break;
+    case SurfacePiece::Kind::parallelogram:
+      kind_ = Kind::rectangle;
+      set_flat(piece.normal, parallelogram);
+      break;
+    case SurfacePiece::Kind::triangle:
+      kind_ = Kind::triangle;
+      set_flat(piece.normal, parallelogram / 2);
+      break;
+    case SurfacePiece::Kind::tube:
+      kind_ = Kind::tube;
+      axis_ = direction_and_length(edge_a_).direction;
+      break;
+  }
+}
+
+void PreparedLight::set_flat(const Vec3& normal, double area) {
+  axis_ = normal;
+  area_over_pi_ = area / std::numbers::pi;
+  set_rectangle_around(area);
+}
+
+/// Finds the rectangle along edge_a that holds the light.
+void PreparedLight::set_rectangle_around(double area) {
+  const auto [x, length] = direction_and_length(edge_a_);
+  const Vec3 y = glm::cross(axis_, x);
+  const double skew = glm::dot(edge_b_, x);
+  const double across = glm::dot(edge_b_, y);
+  std::array<double, 4> along = {0, length, skew, length + skew};
+  if (kind_ == Kind::triangle) along[3] = 0;
+  auto [left, right] = std::minmax_element(along.begin(), along.end());
+  double bottom = std::min(0.0, across);
+  RectangleFrame frame{
+      .x = x, .y = y, .z = axis_, .width = *right - *left, .height = std::abs(across)};
+  Vec3 corner = origin_ + *left * x + bottom * y;
+  if (kind_ == Kind::disc) {
+    // The square about an ellipse's axes holds it, whatever their angle.
+    const double width = elementary::hypot(length, skew);
+    corner = origin_ - width * x - std::abs(across) * y;
+    frame.width = 2 * width;
+    frame.height = 2 * std::abs(across);
+  }
+  constexpr double best_fit = 2.5;
+  if (frame.width * frame.height > best_fit * area) return;
+  around_ = frame;
+  corner_ = corner;
 }
 
 PreparedLight::PreparedLight(const PointLight& light)
@@ -105,11 +164,11 @@ PreparedLight::PreparedLight(const DiscLight& light)
       radius_(light.radius),
       has_size_(true),
       is_visible_(light.visible),
-      is_two_sided_(light.two_sided),
-      area_over_pi_(light.radius * light.radius) {
+      is_two_sided_(light.two_sided) {
   const NormalFrame<double> frame(axis_);
   edge_a_ = radius_ * frame.x;
   edge_b_ = radius_ * frame.y;
+  set_flat(axis_, std::numbers::pi * radius_ * radius_);
 }
 
 PreparedLight::PreparedLight(const RectangleLight& light)
@@ -125,117 +184,59 @@ PreparedLight::PreparedLight(const RectangleLight& light)
   const auto [direction_a, length_a] = direction_and_length(light.edge_a);
   const auto [direction_b, length_b] = direction_and_length(light.edge_b);
   const auto [normal, sine] = direction_and_length(glm::cross(direction_a, direction_b));
-  axis_ = normal;
-  area_over_pi_ = length_a * length_b * sine / std::numbers::pi;
+  set_flat(normal, length_a * length_b * sine);
 }
 
 PreparedLight::PreparedLight(const EnvironmentLight& light)
     : kind_(Kind::environment), color_(light.scale), ambient_(0), has_size_(true) {}
 
-LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_lengths,
-                               const LightNumbers& numbers, LightSamples& light) const {
-  const Lanes infinity = lanes_of(std::numeric_limits<double>::infinity());
-  light.intensities = lanes_of(1);
-  light.colors = lanes_of(color_);
-  switch (kind_) {
-    case Kind::parallel:
-      light.directions = lanes_of(-axis_);
-      light.distances = infinity;
-      return light.distances > 0.0;
-    case Kind::sun: {
-      Lanes versines;
-      light.directions =
-          directions_in_cone(lanes_of(-axis_), lanes_of(rim_versine_), numbers, versines);
-      light.distances = infinity;
-      light.intensities = lanes_of(2 / (2 - rim_versine_));  // so that what faces it gets 1
-      return light.distances > 0.0;
-    }
-    case Kind::cylinder:
-      light.directions = lanes_of(-axis_);
-      light.distances = way_in_cylinder(points);
-      break;
-    case Kind::point:
-    case Kind::spot:
-      directions_and_lengths(lanes_of(origin_) - points, light.directions, light.distances);
-      break;
-    case Kind::ball:
-    case Kind::sphere:
-      sample_ball(points, numbers, light);
-      break;
-    case Kind::environment:
-      environment_->sample(numbers, light);
-      light.colors = lanes_of(color_) * light.colors;
-      light.distances = infinity;
-      return light.distances > 0.0;
-    case Kind::disc: {
-      const auto [x, y] = point_of_disc(numbers.u, numbers.v);
-      sample_flat(points, lanes_of(origin_) + x * lanes_of(edge_a_) + y * lanes_of(edge_b_), light);
-      break;
-    }
-    case Kind::rectangle:
-      sample_flat(points,
-                  lanes_of(origin_) + numbers.u * lanes_of(edge_a_) + numbers.v * lanes_of(edge_b_),
-                  light);
-      break;
-  }
-  if (kind_ == Kind::spot) light.intensities = cone_share(light.directions);
-  if (falloff_ > 0) {
-    const Lanes distance = counts_path_ ? path_lengths + light.distances : light.distances;
-    light.intensities *= min(lanes_of(largest_intensity), falloff_ / (distance * distance));
-  }
-  return light.distances > 0.0;
-}
-
-void PreparedLight::sample_ball(const VectorLanes& points, const LightNumbers& numbers,
-                                LightSamples& light) const {
-  VectorLanes to_center;
-  Lanes distances;
-  directions_and_lengths(lanes_of(origin_) - points, to_center, distances);
-  const Lanes sine = min(radius_ / distances, lanes_of(1));
-  const Lanes cosine = sqrt((1.0 - sine) * (1.0 + sine));
-  const Lanes cone_versine = sine * sine / (1.0 + cosine);
-  Lanes versines;
-  light.directions = directions_in_cone(to_center, cone_versine, numbers, versines);
-  // The chord's half is known by how far the direction passes from the center.
-  const Lanes squared_sines = versines * (2.0 - versines);
-  const Lanes passing = distances * sqrt(squared_sines);
-  const Lanes half_chord = sqrt(max(Lanes{}, (radius_ - passing) * (radius_ + passing)));
-  const Lanes to_surface = max(Lanes{}, distances * (1.0 - versines) - half_chord);
-  const LaneMask is_outside = distances > radius_;
-  if (kind_ == Kind::sphere) {
-    light.distances = select(is_outside, to_surface, Lanes{});
-    light.intensities = 2.0 * cone_versine;
-    return;
-  }
-  // Points within are lit by the center.
-  light.distances = select(is_outside, to_surface, distances);
-  light.directions = select(is_outside, light.directions, to_center);
-  light.intensities = select(is_outside, 2.0 / (1.0 + cosine), lanes_of(1));
-}
-
-void PreparedLight::sample_flat(const VectorLanes& points, const VectorLanes& on_light,
-                                LightSamples& light) const {
-  directions_and_lengths(on_light - points, light.directions, light.distances);
-  const Lanes towards = -dot(light.directions, lanes_of(axis_));
-  const Lanes cosine = is_two_sided_ ? abs(towards) : max(Lanes{}, towards);
-  const Lanes squared = light.distances * light.distances;
-  light.intensities = min(lanes_of(largest_intensity), area_over_pi_ * cosine / squared);
-  light.distances = select(cosine > 0.0, light.distances, Lanes{});
-}
-
 LightMet PreparedLight::meet(const RayLanes& lines) const {
   return kind_ == Kind::sphere ? meet_sphere(lines) : meet_plane(lines);
 }
 
-Lanes PreparedLight::densities(const RayLanes& lines, const Lanes& t) const {
-  LightSamples light;
-  if (kind_ == Kind::environment) return environment_->densities(lines.direction);
-  if (kind_ == Kind::sphere) {
-    sample_ball(lines.origin, {}, light);  // all directions have one density
-    return light.densities();
+LaneMask PreparedLight::holds(const VectorLanes& places) const {
+  // By Cramer's rule each is u a + v b.
+  const VectorLanes axis = lanes_of(axis_);
+  const VectorLanes a = lanes_of(edge_a_);
+  const VectorLanes b = lanes_of(edge_b_);
+  const Lanes whole = dot(cross(a, b), axis);
+  const Lanes u = dot(cross(places, b), axis) / whole;
+  const Lanes v = dot(cross(a, places), axis) / whole;
+  if (kind_ == Kind::disc) return u * u + v * v < 1.0;
+  const LaneMask is_after = u >= 0.0 && v >= 0.0;
+  if (kind_ == Kind::triangle) return is_after && u + v <= 1.0;
+  return is_after && u <= 1.0 && v <= 1.0;
+}
+
+LightExtent PreparedLight::extent() const {
+  LightExtent extent{
+      .bounds = {}, .axis = kind_ == Kind::tube ? Vec3(0) : axis_, .is_two_sided = is_two_sided_};
+  double area = std::numbers::pi * area_over_pi_;
+  switch (kind_) {
+    case Kind::disc:
+      extent.bounds.include_around(origin_, ellipse_extents(edge_a_, edge_b_));
+      break;
+    case Kind::rectangle:
+      extent.bounds.include(origin_ + edge_a_ + edge_b_);
+      [[fallthrough]];
+    case Kind::triangle:
+      for (const Vec3& corner : {origin_, origin_ + edge_a_, origin_ + edge_b_})
+        extent.bounds.include(corner);
+      break;
+    case Kind::tube: {
+      const NormalFrame<double> frame(axis_);
+      const Vec3 extents = ellipse_extents(radius_ * frame.x, radius_ * frame.y);
+      extent.bounds.include_around(origin_, extents);
+      extent.bounds.include_around(origin_ + edge_a_, extents);
+      area = 2 * radius_ * glm::length(edge_a_);
+      break;
+    }
+    default:
+      extent.bounds.include_around(origin_, Vec3(radius_));
+      area = std::numbers::pi * radius_ * radius_;
   }
-  sample_flat(lines.origin, lines.at(t), light);
-  return light.densities();
+  extent.strength = area * (color_.x + color_.y + color_.z);
+  return extent;
 }
 
 LightMet PreparedLight::meet_sphere(const RayLanes& lines) const {
@@ -258,31 +259,7 @@ LightMet PreparedLight::meet_plane(const RayLanes& lines) const {
   const VectorLanes place = t * lines.direction - to_origin;
   LaneMask met = t > 0.0 && t < std::numeric_limits<double>::infinity();
   if (!is_two_sided_) met = met && speed < 0.0;
-  if (kind_ == Kind::disc) return {.met = met && dot(place, place) < radius_ * radius_, .t = t};
-  // By Cramer's rule the place is u a + v b.
-  const VectorLanes a = lanes_of(edge_a_);
-  const VectorLanes b = lanes_of(edge_b_);
-  const Lanes whole = dot(cross(a, b), axis);
-  const Lanes u = dot(cross(place, b), axis) / whole;
-  const Lanes v = dot(cross(a, place), axis) / whole;
-  return {.met = met && u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0, .t = t};
-}
-
-Lanes PreparedLight::way_in_cylinder(const VectorLanes& points) const {
-  const VectorLanes axis = lanes_of(axis_);
-  const VectorLanes from_origin = points - lanes_of(origin_);
-  const Lanes along = dot(from_origin, axis);
-  const VectorLanes from_axis = from_origin - along * axis;
-  return select(dot(from_axis, from_axis) <= radius_ * radius_, along, Lanes{});
-}
-
-Lanes PreparedLight::cone_share(const VectorLanes& to_light) const {
-  const VectorLanes difference = to_light + lanes_of(axis_);
-  const Lanes versine = min(0.5 * dot(difference, difference), lanes_of(2));
-  const Lanes share = (rim_versine_ - versine) / fading_versine_;
-  const Lanes fading = share * share * (3.0 - 2.0 * share);
-  const Lanes within_rim = select(versine <= rim_versine_ - fading_versine_, lanes_of(1), fading);
-  return select(versine > rim_versine_, Lanes{}, within_rim);
+  return {.met = met && holds(place), .t = t};
 }
 
 }  // namespace crt::core

@@ -2,21 +2,19 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
 
+#include "core/geometry/bounds.hpp"
+#include "core/geometry/surface_piece.hpp"
 #include "core/math/vector_lanes.hpp"
 #include "core/ray/plain_ray.hpp"
+#include "core/shading/light_numbers.hpp"
 #include "core/shading/rgb.hpp"
+#include "core/shading/spherical_rectangle.hpp"
 #include "crt/light.hpp"
 #include "crt/settings.hpp"
 
 namespace crt::core {
-
-/// LightNumbers say which point of a light is seen, from as many points as there are lanes: two
-/// numbers each in [0, 1).
-struct LightNumbers {
-  Lanes u{};
-  Lanes v{};
-};
 
 /// LightSamples are a light seen from as many points as there are lanes, as if nothing obstructed
 /// it.
@@ -30,6 +28,7 @@ struct LightSamples {
   /// This is the share of diffuse light that the samples stand for. Rays that surfaces send on find
   /// the rest.
   Lanes diffuse_shares = lanes_of(1);
+  Lanes radii{};  ///< of balls and tubes; 0 of what is flat
 
   /// Returns the densities with which lights that have a size drew these, by solid angle.
   Lanes densities() const { return 1.0 / (std::numbers::pi * intensities); }
@@ -51,12 +50,25 @@ struct LightMet {
   Lanes t{};
 };
 
+/// A LightExtent is where a light with a size is, for all that matters from afar.
+struct LightExtent {
+  Bounds bounds;
+  /// It shines most along this axis, and not at all backwards unless it is two-sided. The axis is 0
+  /// if it shines to all sides.
+  Vec3 axis{0, 0, 0};
+  bool is_two_sided = false;
+  double strength = 0;  ///< radiance times the area that is seen, along the axis
+};
+
 class PreparedLight {
  public:
   /// `environment` is that of the scene's background, which EnvironmentLights need. It must outlive
   /// the light.
   PreparedLight(const Light& light, FalloffModel falloff_model,
                 const Environment* environment = nullptr);
+
+  /// Makes a light of a piece of a surface that gives light off. Rays meet the surface itself.
+  PreparedLight(const SurfacePiece& piece, const Rgb& radiance, bool is_two_sided);
 
   /// Returns its colour, which is 1 for an EnvironmentLight.
   const Rgb& color() const { return color_; }
@@ -69,7 +81,14 @@ class PreparedLight {
   /// Returns whether meet() ever finds anything.
   bool is_visible() const { return is_visible_; }
   /// Returns whether rays that surfaces send on find the light, too.
-  bool is_found_by_rays() const { return is_visible_ || kind_ == Kind::environment; }
+  bool is_found_by_rays() const { return is_found_by_rays_; }
+  /// Returns whether it has a size, and is at a place.
+  bool has_extent() const {
+    return kind_ == Kind::sphere || kind_ == Kind::disc || kind_ == Kind::rectangle ||
+           kind_ == Kind::triangle || kind_ == Kind::tube;
+  }
+  /// Returns where a light is that has_extent().
+  LightExtent extent() const;
 
   /// Samples the light at points and returns where it shines. `path_lengths` are the lengths of the
   /// paths from the camera to the points, over all bounces.
@@ -81,7 +100,7 @@ class PreparedLight {
   LightMet meet(const RayLanes& lines) const;
 
   /// Returns the densities with which sample() at the origins draws the directions, which are of
-  /// unit length and meet the light at t.
+  /// unit length and meet the light at t. They are 0 where it does not shine to.
   Lanes densities(const RayLanes& lines, const Lanes& t) const;
 
  private:
@@ -104,6 +123,8 @@ class PreparedLight {
     sphere,
     disc,
     rectangle,
+    triangle,
+    tube,
     environment
   };
 
@@ -114,8 +135,33 @@ class PreparedLight {
   /// Fill in directions, distances and intensities of lights with a size.
   void sample_ball(const VectorLanes& points, const LightNumbers& numbers,
                    LightSamples& light) const;
+  void sample_area(const VectorLanes& points, const VectorLanes& on_light,
+                   const VectorLanes& normals, const Lanes& areas_over_pi,
+                   LightSamples& light) const;
   void sample_flat(const VectorLanes& points, const VectorLanes& on_light,
                    LightSamples& light) const;
+  void sample_tube(const VectorLanes& points, const LightNumbers& numbers,
+                   LightSamples& light) const;
+  /// Replaces the samples of points that a flat light is near to. They are drawn evenly over the
+  /// solid angle of the rectangle around it, and those beside the light find nothing.
+  void sample_near(const VectorLanes& points, const LightNumbers& numbers,
+                   LightSamples& light) const;
+  /// Returns the points to which a flat light is so near.
+  LaneMask are_near(const VectorLanes& points) const;
+  /// Returns which places of a flat light's plane, relative to its origin, are on it.
+  LaneMask holds(const VectorLanes& places) const;
+  /// Finds the points' directions to the tube's axis and across both, and the angle up to which
+  /// they see it to either side. It is 0 within.
+  struct TubeView {
+    VectorLanes outwards;
+    VectorLanes across;
+    Lanes half_angles{};
+  };
+  TubeView view_of_tube(const VectorLanes& points) const;
+  /// Returns the area of what is seen of the tube, over pi.
+  Lanes tube_area_over_pi(const TubeView& view) const;
+  void set_flat(const Vec3& normal, double area);
+  void set_rectangle_around(double area);
   LightMet meet_sphere(const RayLanes& lines) const;
   LightMet meet_plane(const RayLanes& lines) const;
 
@@ -125,18 +171,21 @@ class PreparedLight {
   double falloff_ = 0;
   bool counts_path_ = false;
   Vec3 origin_{0, 0, 0};
-  Vec3 axis_{0, 0, 0};  ///< the direction in which it shines, unit length
+  Vec3 axis_{0, 0, 0};  ///< the direction in which it shines, or of a tube its own; unit length
   double radius_ = 0;
   /// The versine 1 - cos of a cone's half angle separates narrow cones, unlike the cosine.
   double rim_versine_ = 0;
   double fading_versine_ = 0;  ///< from the cone's edge to where the light is full
   bool has_size_ = false;
   bool is_visible_ = false;
+  bool is_found_by_rays_ = false;
   bool is_two_sided_ = false;
   const Environment* environment_ = nullptr;
   double area_over_pi_ = 0;  ///< of a flat light
-  Vec3 edge_a_{0, 0, 0};     ///< of a rectangle; of a disc they are radii across each other
+  Vec3 edge_a_{0, 0, 0};     ///< of a disc these are half axes
   Vec3 edge_b_{0, 0, 0};
+  std::optional<RectangleFrame> around_;  ///< a rectangle around a flat light, if it fits well
+  Vec3 corner_{0, 0, 0};                  ///< of that rectangle
 };
 
 }  // namespace crt::core

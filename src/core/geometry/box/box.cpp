@@ -185,6 +185,25 @@ template void BoxShape::write_point<double>(const Vec3&, const Vec3&, std::uint3
 template void BoxShape::write_point<Lanes>(const VectorLanes&, const VectorLanes&, std::uint32_t,
                                            bool, SurfacePointLanes&) const;
 
+bool BoxShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
+  for (const PlaneFace& face : faces_) {
+    const int axis = face.axis();
+    Vec3 corner = lower_;
+    corner[axis] = face.position()[axis];
+    std::array<Vec3, 2> edges = {Vec3(0), Vec3(0)};
+    for (int i = 0; i < 2; ++i) {
+      const int along = (axis + 1 + i) % 3;
+      edges[static_cast<std::size_t>(i)][along] = upper_[along] - lower_[along];
+    }
+    pieces.push_back({.kind = SurfacePiece::Kind::parallelogram,
+                      .origin = placement.point_to_world(corner),
+                      .edge_a = placement.direction_to_world(edges[0]),
+                      .edge_b = placement.direction_to_world(edges[1]),
+                      .normal = placement.normal_to_world(face.unit_normal())});
+  }
+  return true;
+}
+
 std::unique_ptr<const Shape> make_shape(const Box& box) {
   return std::make_unique<BoxShape>(box);
 }

@@ -42,6 +42,15 @@ void DiscShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std
   if (with_uv) set_polar(relative, frame_, radius_, point);
 }
 
+bool DiscShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
+  pieces.push_back({.kind = SurfacePiece::Kind::disc,
+                    .origin = placement.point_to_world(face_.position()),
+                    .edge_a = placement.direction_to_world(radius_ * frame_.zero),
+                    .edge_b = placement.direction_to_world(radius_ * frame_.quarter),
+                    .normal = placement.normal_to_world(frame_.along)});
+  return true;
+}
+
 std::unique_ptr<const Shape> make_shape(const Disc& disc) {
   return std::make_unique<DiscShape>(disc);
 }

@@ -31,6 +31,24 @@ FrustumShape::FrustumShape(const Vec3& from, const Vec3& to, double from_radius,
   }
 }
 
+bool FrustumShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
+  const double scale = placement.even_scale();
+  if (radii_[0] != radii_[1] || scale == 0) return false;
+  const double radius = radii_[0];
+  pieces.push_back({.kind = SurfacePiece::Kind::tube,
+                    .origin = placement.point_to_world(from_),
+                    .edge_a = placement.direction_to_world(to_ - from_),
+                    .radius = scale * radius});
+  for (const std::optional<PlaneFace>& cap : caps_) {
+    pieces.push_back({.kind = SurfacePiece::Kind::disc,
+                      .origin = placement.point_to_world(cap->position()),
+                      .edge_a = placement.direction_to_world(radius * frame_.zero),
+                      .edge_b = placement.direction_to_world(radius * frame_.quarter),
+                      .normal = placement.normal_to_world(cap->unit_normal())});
+  }
+  return true;
+}
+
 Bounds FrustumShape::bounds() const {
   Bounds result;
   result.include_around(from_, disc_extents(to_ - from_, radii_[0]));

@@ -26,6 +26,12 @@ Surface MeshShape::surface(std::uint32_t face) const {
   return surface;
 }
 
+bool MeshShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
+  for (std::uint32_t face = 0; face < face_count(); ++face)
+    facet(face).append_pieces(placement, pieces);
+  return true;
+}
+
 const FacetAttributes* facet_attributes(const Primitive& primitive) {
   const auto* mesh = std::get_if<Mesh>(&primitive);
   return mesh == nullptr ? nullptr : mesh->triangles->attributes();
