@@ -133,6 +133,27 @@ PixelClass sky_pixels() {
   return {"sky", floor_and_ball(EnvironmentLight{}, Material{.color = grey(0.6)}), false};
 }
 
+PixelClass many_lights_pixels() {
+  Scene scene = floor_and_ball(EnvironmentLight{.scale = 0.1}, Material{.color = grey(0.6)});
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 2.4 * i;
+    scene.lights.emplace_back(
+        SphereLight{.center = {2 * std::cos(angle), 0.4 + 0.05 * i, 1.5 * std::sin(angle) + 0.3},
+                    .radius = 0.1,
+                    .color = grey(2 + i % 5),
+                    .visible = i % 2 == 0});
+  }
+  return {"many lights", scene, false};
+}
+
+/// Light of a small bright lamp comes through glass, where rays find it by chance alone.
+PixelClass caustic_pixels() {
+  const SphereLight lamp{.center = {1, 2.5, 1}, .radius = 0.1, .color = grey(100)};
+  PixelClass pixels{"caustic", floor_and_ball(lamp, glass(1.5)), false};
+  pixels.scene.settings.indirect = 1;
+  return pixels;
+}
+
 Image reference_of(Scene scene, int samples) {
   scene.settings.seed = 1000;
   scene.settings.target_error = 1;
@@ -150,9 +171,10 @@ TEST_CASE("the bound of Clopper and Pearson is as in tables") {
 TEST_CASE("in every class of pixels 95 of 100 are as near the truth as they say") {
   // This covers the reference's own error, and rounding.
   constexpr double tolerance = 0.1 / 255;
-  std::vector<PixelClass> classes{flat_pixels(),      edge_pixels(),       thin_pixels(),
-                                  defocused_pixels(), refractive_pixels(), penumbra_pixels(),
-                                  glossy_pixels(),    indirect_pixels(),   sky_pixels()};
+  std::vector<PixelClass> classes{flat_pixels(),        edge_pixels(),       thin_pixels(),
+                                  defocused_pixels(),   refractive_pixels(), penumbra_pixels(),
+                                  glossy_pixels(),      indirect_pixels(),   sky_pixels(),
+                                  many_lights_pixels(), caustic_pixels()};
   // What counts is how far off a pixel looks, as it is exposed.
   for (PixelClass pixels : {edge_pixels(), defocused_pixels()}) {
     for (const auto& [exposure, map] : {std::pair{2.0, ToneMap::none}, {-1.0, ToneMap::filmic}}) {
@@ -162,8 +184,8 @@ TEST_CASE("in every class of pixels 95 of 100 are as near the truth as they say"
     }
   }
   for (PixelClass& pixels : classes) {
-    const Image truth =
-        reference_of(pixels.scene, pixels.scene.settings.dof_samples > 1 ? 16384 : 4096);
+    const bool is_noisy = pixels.scene.settings.dof_samples > 1 || pixels.name == "caustic";
+    const Image truth = reference_of(pixels.scene, is_noisy ? 16384 : 4096);
     for (const double target : {8.0 / 255, 4.0 / 255}) {
       pixels.scene.settings.target_error = target;
       const PreparedScene scene = prepare(pixels.scene);
@@ -195,6 +217,13 @@ TEST_CASE("in every class of pixels 95 of 100 are as near the truth as they say"
       CHECK(clopper_pearson_low(within, count) >= 0.95);
     }
   }
+}
+
+TEST_CASE("pixels that get some light by chance stay unresolved rather than claim too much") {
+  Scene scene = caustic_pixels().scene;
+  scene.settings.target_error = 2.0 / 255;
+  scene.settings.max_samples = 256;
+  CHECK(render(prepare(scene)).stats().pixels_unresolved > side);
 }
 
 TEST_CASE("what cutting off paths took from a picture is within what it says") {
