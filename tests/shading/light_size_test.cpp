@@ -2,6 +2,7 @@
 // say.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -31,12 +32,12 @@ Seen seen_of(const PreparedLight& prepared, const Vec3& point, const Vec3& norma
   const VectorLanes points = lanes_of(point);
   Seen seen{.nearest = std::numeric_limits<double>::infinity()};
   for (std::uint32_t i = 0; i < samples; i += lane_count) {
-    LightNumbers numbers;
-    for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
-      const auto drawn = sample_numbers(1, {3, 5, i + lane}, {.ray = 2, .kind = 7});
-      numbers.u[lane] = drawn[0];
-      numbers.v[lane] = drawn[1];
-    }
+    std::array<SampleId, lane_count> ids;
+    for (std::uint32_t lane = 0; lane < lane_count; ++lane) ids[lane] = {3, 5, i + lane};
+    std::array<SampleDecision, lane_count> decisions;
+    decisions.fill({.ray = 2, .kind = 7});
+    const auto [u, v, spare_u, spare_v] = sample_numbers(1, ids, decisions);
+    const LightNumbers numbers{.u = u, .v = v};
     LightSamples sampled;
     const std::uint32_t lit = mask_of(prepared.sample(points, Lanes{}, numbers, sampled));
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -194,8 +195,7 @@ TEST_CASE("pieces of surfaces give what lights of their shape do") {
                                        .edge_a = {100, 0, 0},
                                        .radius = 0.5},
                                       false);
-  CHECK(seen_of(tube, {0, 0, 0}, {0, 1, 0}).brightness ==
-        doctest::Approx(0.5 / 3).epsilon(2e-3));
+  CHECK(seen_of(tube, {0, 0, 0}, {0, 1, 0}).brightness == doctest::Approx(0.5 / 3).epsilon(2e-3));
   CHECK(seen_of(tube, {0, 3, 0}, {0, 1, 0}).brightness == 0);  // from within
 }
 

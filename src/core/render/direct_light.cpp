@@ -69,17 +69,10 @@ void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, V
 void draw_numbers(const TraceContext& context, const PathRays& rays, RayMask some,
                   std::uint32_t kind, int sample, ShadowRays& shadow_rays) {
   const Settings& settings = context.frame.settings();
-  const auto samples = static_cast<std::uint32_t>(settings.light_samples);
-  for_each_ray(some, [&](std::size_t i) {
-    const SampleWork& work = *rays.works[i];
-    SampleId id = work.id;
-    id.index = id.index * samples + static_cast<std::uint32_t>(sample);
-    const auto drawn =
-        sample_numbers(settings.seed, id, {static_cast<std::uint32_t>(work.rays), kind});
-    LightNumbers& numbers = shadow_rays.numbers[i / lane_count];
-    numbers.u[i % lane_count] = drawn[0];
-    numbers.v[i % lane_count] = drawn[1];
-    numbers.choice[i % lane_count] = drawn[2];
+  RayPacket::for_each_group(some, [&](std::size_t group, RayMask) {
+    const auto [u, v, choice, spare] =
+        rays.draw(settings.seed, group, kind, settings.light_samples, sample);
+    shadow_rays.numbers[group] = {u, v, choice};
   });
 }
 

@@ -39,19 +39,6 @@ VectorLanes kept_on_side(const VectorLanes& direction, const VectorLanes& side) 
   return select(dot(direction, side) < 0.0, mirrored(direction, side), direction);
 }
 
-/// Draws the numbers of a decision of some rays of a group.
-std::array<Lanes, sequence_dimensions> draw(const TraceContext& context, const PathRays& rays,
-                                            std::size_t group, RayMask some, std::uint32_t kind) {
-  std::array<Lanes, sequence_dimensions> result{};
-  for_each_ray(some, [&](std::size_t lane) {
-    const SampleWork& work = *rays.works[group * lane_count + lane];
-    const auto numbers = sample_numbers(context.frame.settings().seed, work.id,
-                                        {static_cast<std::uint32_t>(work.rays), kind});
-    for (std::size_t i = 0; i < numbers.size(); ++i) result[i][lane] = numbers[i];
-  });
-  return result;
-}
-
 /// Returns rays that some of a group of surfaces send on as they send diffuse light back: in random
 /// directions, most of them near the normal. The cosine in their density leaves a weight of the
 /// surface's diffuse colour.
@@ -63,7 +50,7 @@ Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const Sur
   branch.rays &= RayPacket::lanes(rays.sending_diffuse(context.frame.settings().indirect), group);
   if (branch.rays == 0) return branch;
   const auto [u, v, spare_u, spare_v] =
-      draw(context, rays, group, branch.rays, SampleDecision::diffuse_direction);
+      rays.draw(context.frame.settings().seed, group, SampleDecision::diffuse_direction);
   const auto [x, y] = point_of_disc(u, v);
   const Lanes upwards = sqrt(max(Lanes{}, 1.0 - x * x - y * y));
   const VectorLanes& normal = from.phong.normal;
@@ -85,7 +72,7 @@ Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const Sur
 void scatter(const TraceContext& context, const PathRays& rays, const SurfaceGroup& from,
              std::size_t group, RayMask principled, Split& split) {
   const auto [u, v, w, spare] =
-      draw(context, rays, group, principled, SampleDecision::scattered_direction);
+      rays.draw(context.frame.settings().seed, group, SampleDecision::scattered_direction);
   const ScatteredRay<Lanes> ray =
       sample<Lanes>(from.principled, -from.phong.view, from.phong.normal, {u, v, w});
   const VectorLanes weights = rays.weights[group] * ray.weight;

@@ -61,6 +61,22 @@ struct PathRays {
     for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].density > 0) << i;
     return mask;
   }
+  /// Draws the numbers of a decision of a kind for a group, of one of some samples of it.
+  std::array<Lanes, sequence_dimensions> draw(std::uint64_t seed, std::size_t group,
+                                              std::uint32_t kind, int samples = 1,
+                                              int sample = 0) const {
+    std::array<SampleId, lane_count> ids{};
+    std::array<SampleDecision, lane_count> decisions{};
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const std::size_t ray = group * lane_count + lane;
+      if (ray >= count) break;
+      ids[lane] = works[ray]->id;
+      ids[lane].index = ids[lane].index * static_cast<std::uint32_t>(samples) +
+                        static_cast<std::uint32_t>(sample);
+      decisions[lane] = {static_cast<std::uint32_t>(works[ray]->rays), kind};
+    }
+    return sample_numbers(seed, ids, decisions);
+  }
   /// Returns those that come after a diffuse bounce.
   RayMask after_diffuse() const {
     RayMask mask = 0;

@@ -26,12 +26,20 @@ struct SampleDecision {
   static constexpr std::uint32_t kinds_of_lights = max_kinds / 2;
 };
 
-/// Returns numbers in [0, 1). Over the samples of a pixel they are distributed evenly.
-inline std::array<double, sequence_dimensions> sample_numbers(std::uint64_t seed,
-                                                              const SampleId& sample,
-                                                              const SampleDecision& decision) {
-  const std::uint32_t number = decision.ray * SampleDecision::max_kinds + decision.kind;
-  return PixelSequence::of_decision(seed, sample.x, sample.y, number).numbers(sample.index);
+/// Returns the numbers by which as many samples decide as there are lanes. The samples of a pixel
+/// get each number distributed evenly over [0, 1).
+inline std::array<Lanes, sequence_dimensions> sample_numbers(
+    std::uint64_t seed, const std::array<SampleId, lane_count>& samples,
+    const std::array<SampleDecision, lane_count>& decisions) {
+  std::array<PixelSequence::Decision, lane_count> each;
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    const auto& [ray, kind] = decisions[i];
+    each[i] = {.x = samples[i].x,
+               .y = samples[i].y,
+               .index = samples[i].index,
+               .decision = ray * SampleDecision::max_kinds + kind};
+  }
+  return PixelSequence::numbers_of_each(seed, each);
 }
 
 }  // namespace crt::core

@@ -112,16 +112,16 @@ inline constexpr auto low_bit_table = low_bits();
 
 /// Flips each bit or not by a hash of the seed and the bits below it. Both steps keep to bits
 /// below: adding and multiplying carry upwards, and an even factor leaves a bit itself out of what
-/// it is mixed with. It takes one number, or lanes.
-template <class Bits>
-constexpr Bits scrambled_upwards(Bits bits, std::uint32_t seed) {
+/// it is mixed with. It takes one number, or lanes with one seed or a seed each.
+template <class Bits, class Seed>
+constexpr Bits scrambled_upwards(Bits bits, Seed seed) {
   constexpr std::array<std::uint32_t, 3> even_factors = {0x9e3779baU, 0xbf58476cU, 0x94d049baU};
   bits += seed;
   bits ^= bits * even_factors[0];
   // The bits times an odd factor are mixed with themselves times an even one. Both are products of
   // the earlier bits, so the second multiplication need not wait for the first.
   for (std::size_t i = 1; i < even_factors.size(); ++i) {
-    const std::uint32_t odd_factor = seed << 1 | 1u;
+    const Seed odd_factor = seed << 1 | 1u;
     bits = bits * odd_factor ^ bits * (odd_factor * even_factors[i]);
     seed = seed >> 7 | seed << 25;
   }
@@ -135,21 +135,24 @@ class PixelSequence {
  public:
   /// Makes the sequence of no pixel.
   PixelSequence() = default;
-  PixelSequence(std::uint64_t seed, int x, int y) : PixelSequence(seed, x, y, 0) {}
+  PixelSequence(std::uint64_t seed, int x, int y)
+      : seeds_(philox4x32_10({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, use},
+                             key_of(seed))) {}
 
-  /// Makes a sequence of a pixel for some decision of its samples after their place and lens. The
-  /// sequences of several decisions are independent: the points of each have an order of their own.
+  /// A Decision is one that a sample of a pixel takes after its place and lens.
+  struct Decision {
+    int x = 0;
+    int y = 0;
+    std::uint32_t index = 0;     ///< of the sample
+    std::uint32_t decision = 0;  ///< its number
+  };
+  /// Returns the numbers, each in [0, 1), by which as many samples decide as there are lanes. Each
+  /// decision of a pixel has a sequence of its own, and these are independent: the points of each
+  /// have an order of their own.
   ///
   /// Source: Burley, Practical hash-based Owen scrambling, 2020, section 4 (padding).
-  static PixelSequence of_decision(std::uint64_t seed, int x, int y, std::uint32_t decision) {
-    return PixelSequence(seed, x, y, decision + 1);
-  }
-  /// Returns four numbers in [0, 1) of such a sequence.
-  std::array<double, sequence_dimensions> numbers(std::uint32_t index) const {
-    using namespace sequence_detail;
-    const std::uint32_t order = seeds_[0] ^ (seeds_[3] << 16 | seeds_[3] >> 16);
-    return coordinates<sequence_dimensions>(reversed(scrambled_upwards(reversed(index), order)));
-  }
+  static std::array<Lanes, sequence_dimensions> numbers_of_each(
+      std::uint64_t seed, const std::array<Decision, lane_count>& decisions);
 
   /// Pixel is a pixel's position. of_each() makes the sequences of four pixels at once.
   struct Pixel {
@@ -202,11 +205,6 @@ class PixelSequence {
   }
 
  private:
-  PixelSequence(std::uint64_t seed, int x, int y, std::uint32_t decision)
-      : seeds_(philox4x32_10(
-            {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), decision, use},
-            key_of(seed))) {}
-
   /// Returns the bits that an index flips, not scrambled.
   template <std::size_t dimensions>
   static std::array<std::uint32_t, dimensions> bits_of(std::uint32_t index) {
@@ -219,6 +217,18 @@ class PixelSequence {
     return bits;
   }
 
+  /// Returns the fractions that reversed bits are.
+  static std::array<Lanes, 2> fractions(const BitOctet& bits) {
+    // Processors convert only signed numbers to doubles side by side, from -1/2 to 1/2, exactly.
+    constexpr std::uint32_t middle = 0x80000000u;
+    const auto groups = stdx::split<IntLanes>(bits_as<IntOctet>(BitOctet(bits ^ middle)));
+    std::array<Lanes, 2> result;
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      const auto from_middle = stdx::static_simd_cast<Lanes>(groups[k]);
+      result[k] = fma(from_middle, lanes_of(0x1p-32), lanes_of(0.5));
+    }
+    return result;
+  }
   static double fraction(std::uint32_t reversed_bits) { return 0x1p-32 * reversed_bits; }
 
   template <std::size_t dimensions>
@@ -246,13 +256,8 @@ class PixelSequence {
     for (std::uint32_t i = first / points_at_once * points_at_once; i < end; i += points_at_once) {
       const auto low_bits = lanes_at<BitOctet>(&low_bit_table[dimension][i]);
       const BitOctet bits = reversed(scrambled_upwards(BitOctet(low_bits ^ high_bits), seed));
-      // Processors convert only signed numbers to doubles side by side, from -1/2 to 1/2, exactly.
-      constexpr std::uint32_t middle = 0x80000000u;
-      const auto groups = stdx::split<IntLanes>(bits_as<IntOctet>(BitOctet(bits ^ middle)));
-      for (std::size_t k = 0; k < groups.size(); ++k) {
-        const auto from_middle = stdx::static_simd_cast<Lanes>(groups[k]);
-        coordinates[i / lane_count + k] = fma(from_middle, lanes_of(0x1p-32), lanes_of(0.5));
-      }
+      const auto groups = fractions(bits);
+      for (std::size_t k = 0; k < groups.size(); ++k) coordinates[i / lane_count + k] = groups[k];
     }
   }
 
@@ -261,5 +266,42 @@ class PixelSequence {
 
   PhiloxCounter seeds_{};
 };
+
+inline std::array<Lanes, sequence_dimensions> PixelSequence::numbers_of_each(
+    std::uint64_t seed, const std::array<Decision, lane_count>& decisions) {
+  using namespace sequence_detail;
+  WordLanes x;
+  WordLanes y;
+  WordLanes numbers;
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    x[i] = static_cast<std::uint32_t>(decisions[i].x);
+    y[i] = static_cast<std::uint32_t>(decisions[i].y);
+    numbers[i] = decisions[i].decision + 1;
+  }
+  const auto words = philox_rounds<WordLanes>({x, y, numbers, use}, key_of(seed));
+  // An octet has the lanes of two dimensions.
+  static_assert(octet_size == 2 * lane_count && sequence_dimensions == 4);
+  std::array<BitOctet, 2> seeds;
+  BitOctet indices;
+  BitOctet orders;
+  for (std::size_t i = 0; i < octet_size; ++i) {
+    const std::size_t lane = i % lane_count;
+    const auto word = [&](std::size_t d) { return static_cast<std::uint32_t>(words[d][lane]); };
+    seeds[0][i] = word(i / lane_count);
+    seeds[1][i] = word(2 + i / lane_count);
+    indices[i] = decisions[lane].index;
+    orders[i] = word(0) ^ (word(3) << 16 | word(3) >> 16);
+  }
+  indices = reversed(scrambled_upwards(reversed(indices), orders));
+  std::array<BitOctet, 2> bits;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto of_index = bits_of<sequence_dimensions>(indices[lane]);
+    for (std::size_t d = 0; d < sequence_dimensions; ++d)
+      bits[d / 2][d % 2 * lane_count + lane] = of_index[d];
+  }
+  const auto first = fractions(reversed(scrambled_upwards(bits[0], seeds[0])));
+  const auto second = fractions(reversed(scrambled_upwards(bits[1], seeds[1])));
+  return {first[0], first[1], second[0], second[1]};
+}
 
 }  // namespace crt::core
