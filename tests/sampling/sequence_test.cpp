@@ -56,7 +56,7 @@ std::array<double, 4> numbers_of(std::uint64_t seed, int x, int y, std::uint32_t
   for (std::uint32_t i = 0; i < lane_count; ++i)
     each[i] = {.x = x + 3 * static_cast<int>(i), .y = y, .index = 5 * i, .decision = 7 * i};
   const std::size_t lane = index % lane_count;
-  each[lane] = {.x = x, .y = y, .index = index, .decision = decision};
+  each[lane] = {.x = x, .y = y, .index = index, .decision = 1 + decision};
   const auto numbers = PixelSequence::numbers_of_each(seed, each);
   return {numbers[0][lane], numbers[1][lane], numbers[2][lane], numbers[3][lane]};
 }

@@ -68,10 +68,9 @@ void soften_terminator(const SurfaceGroup& group, const VectorLanes& to_light, V
 /// one of Settings::light_samples samples of it.
 void draw_numbers(const TraceContext& context, const PathRays& rays, RayMask some,
                   std::uint32_t kind, int sample, ShadowRays& shadow_rays) {
-  const Settings& settings = context.frame.settings();
+  const int samples = context.frame.settings().light_samples;
   RayPacket::for_each_group(some, [&](std::size_t group, RayMask) {
-    const auto [u, v, choice, spare] =
-        rays.draw(settings.seed, group, kind, settings.light_samples, sample);
+    const auto [u, v, choice, spare] = rays.draw(context.frame, group, kind, samples, sample);
     shadow_rays.numbers[group] = {u, v, choice};
   });
 }
@@ -244,8 +243,8 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   };
   for (const std::uint32_t index : context.frame.asked_lights()) {
     const PreparedLight& light = context.frame.lights()[index];
-    add({.light = &light, .chosen = nullptr}, light.has_size(),
-        index % SampleDecision::kinds_of_lights, index);
+    add({.light = &light, .chosen = nullptr}, light.has_size(), SampleDecision::of_light(index),
+        index);
   }
   if (const ChosenLights* const chosen = context.data.chosen_lights())
     add({.light = nullptr, .chosen = chosen}, true, SampleDecision::chosen_light, 0);

@@ -76,6 +76,7 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
     }
   }
   draws_numbers_ = draws_numbers_ || chosen != nullptr;
+  if (!features().lens) kind_with_lens_ = first_decision();
   if (settings.indirect > 0) ambient_ = Rgb(0);
   draws_numbers_ = draws_numbers_ || settings.indirect > 0 || features().principled;
   if (features().gain > 1) {
@@ -101,6 +102,14 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
     one_viewpoint_ = false;
     camera_media_.clear();
   }
+}
+
+std::uint32_t Frame::first_decision() const {
+  for (const std::uint32_t light : asked_lights_) {
+    if (lights_[light].has_size()) return SampleDecision::of_light(light);
+  }
+  return data_.chosen_lights() == nullptr ? SampleDecision::diffuse_direction
+                                          : SampleDecision::chosen_light;
 }
 
 void find_surrounding_media(const PreparedData& data, const WorldRay& ray, PassingRays kind,

@@ -34,6 +34,9 @@ class Frame {
   /// Returns a light's number among the ChosenLights, or invalid_index if it is none of them.
   std::uint32_t number_of_chosen(std::uint32_t light) const { return numbers_of_chosen_[light]; }
 
+  /// Returns whether a decision at the first surface takes the numbers of the lens, which has no
+  /// use for them: that on the point of a light or, without such lights, on the diffuse direction.
+  bool takes_numbers_of_lens(std::uint32_t kind) const { return kind == kind_with_lens_; }
   /// Returns whether samples draw numbers beyond those of their place and lens.
   bool draws_numbers() const { return draws_numbers_; }
   /// Returns whether a light is seen itself.
@@ -66,6 +69,8 @@ class Frame {
   const std::vector<Medium>& camera_media() const { return camera_media_; }
 
  private:
+  std::uint32_t first_decision() const;
+
   const PreparedData& data_;
   const Settings& settings_;
   CameraRays camera_;
@@ -79,6 +84,7 @@ class Frame {
   std::optional<PreparedLight> environment_;
   bool draws_numbers_ = false;
   bool shows_lights_ = false;
+  std::uint32_t kind_with_lens_ = SampleDecision::none;
   std::vector<double> gains_behind_;  ///< by bounces; none if no surface brightens light
   bool one_viewpoint_ = false;
   std::vector<Medium> camera_media_;

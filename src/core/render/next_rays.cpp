@@ -50,7 +50,7 @@ Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const Sur
   branch.rays &= RayPacket::lanes(rays.sending_diffuse(context.frame.settings().indirect), group);
   if (branch.rays == 0) return branch;
   const auto [u, v, spare_u, spare_v] =
-      rays.draw(context.frame.settings().seed, group, SampleDecision::diffuse_direction);
+      rays.draw(context.frame, group, SampleDecision::diffuse_direction);
   const auto [x, y] = point_of_disc(u, v);
   const Lanes upwards = sqrt(max(Lanes{}, 1.0 - x * x - y * y));
   const VectorLanes& normal = from.phong.normal;
@@ -72,7 +72,7 @@ Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const Sur
 void scatter(const TraceContext& context, const PathRays& rays, const SurfaceGroup& from,
              std::size_t group, RayMask principled, Split& split) {
   const auto [u, v, w, spare] =
-      rays.draw(context.frame.settings().seed, group, SampleDecision::scattered_direction);
+      rays.draw(context.frame, group, SampleDecision::scattered_direction);
   const ScatteredRay<Lanes> ray =
       sample<Lanes>(from.principled, -from.phong.view, from.phong.normal, {u, v, w});
   const VectorLanes weights = rays.weights[group] * ray.weight;

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "core/render/workspace.hpp"
+#include "core/render/frame.hpp"
 
 namespace crt::core {
 
@@ -62,7 +62,7 @@ struct PathRays {
     return mask;
   }
   /// Draws the numbers of a decision of a kind for a group, of one of some samples of it.
-  std::array<Lanes, sequence_dimensions> draw(std::uint64_t seed, std::size_t group,
+  std::array<Lanes, sequence_dimensions> draw(const Frame& frame, std::size_t group,
                                               std::uint32_t kind, int samples = 1,
                                               int sample = 0) const {
     std::array<SampleId, lane_count> ids{};
@@ -75,7 +75,9 @@ struct PathRays {
                         static_cast<std::uint32_t>(sample);
       decisions[lane] = {static_cast<std::uint32_t>(works[ray]->rays), kind};
     }
-    return sample_numbers(seed, ids, decisions);
+    const bool lens_is_free =
+        are_from_camera() && samples == 1 && frame.takes_numbers_of_lens(kind);
+    return sample_numbers(frame.settings().seed, ids, decisions, lens_is_free);
   }
   /// Returns those that come after a diffuse bounce.
   RayMask after_diffuse() const {

@@ -15,22 +15,24 @@ struct SampleId {
 
 /// A SampleDecision is one that a sample takes at a ray that it follows. Each has four numbers.
 struct SampleDecision {
-  std::uint32_t ray = 0;   ///< the ray's number within the sample
+  std::uint32_t ray = 0;   ///< the ray's number within the sample, from 1
   std::uint32_t kind = 0;  ///< below max_kinds
 
   static constexpr std::uint32_t max_kinds = 1u << 15;
+  static constexpr std::uint32_t none = ~0u;
   static constexpr std::uint32_t diffuse_direction = max_kinds - 1;
   static constexpr std::uint32_t scattered_direction = max_kinds - 2;
   static constexpr std::uint32_t chosen_light = max_kinds - 3;
-  /// The points of lights have the kinds from 0 up to before this. More lights share them.
-  static constexpr std::uint32_t kinds_of_lights = max_kinds / 2;
+  /// Points of more lights than there are such kinds share them.
+  static constexpr std::uint32_t of_light(std::uint32_t light) { return light % (max_kinds / 2); }
 };
 
 /// Returns the numbers by which as many samples decide as there are lanes. The samples of a pixel
-/// get each number distributed evenly over [0, 1).
+/// get each number distributed evenly over [0, 1). With `lens_is_free` the first two are the lens's
+/// numbers, which are distributed evenly together with the place on the pixel.
 inline std::array<Lanes, sequence_dimensions> sample_numbers(
     std::uint64_t seed, const std::array<SampleId, lane_count>& samples,
-    const std::array<SampleDecision, lane_count>& decisions) {
+    const std::array<SampleDecision, lane_count>& decisions, bool lens_is_free = false) {
   std::array<PixelSequence::Decision, lane_count> each;
   for (std::size_t i = 0; i < lane_count; ++i) {
     const auto& [ray, kind] = decisions[i];
@@ -39,7 +41,13 @@ inline std::array<Lanes, sequence_dimensions> sample_numbers(
                .index = samples[i].index,
                .decision = ray * SampleDecision::max_kinds + kind};
   }
-  return PixelSequence::numbers_of_each(seed, each);
+  auto numbers = PixelSequence::numbers_of_each(seed, each);
+  if (!lens_is_free) return numbers;
+  for (PixelSequence::Decision& decision : each) decision.decision = PixelSequence::place_and_lens;
+  const auto of_pixel = PixelSequence::numbers_of_each(seed, each);
+  numbers[0] = of_pixel[2];
+  numbers[1] = of_pixel[3];
+  return numbers;
 }
 
 }  // namespace crt::core

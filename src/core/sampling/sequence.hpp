@@ -146,9 +146,11 @@ class PixelSequence {
     std::uint32_t index = 0;     ///< of the sample
     std::uint32_t decision = 0;  ///< its number
   };
+  /// This is the number of the decision on place and lens, which has the pixel's own sequence.
+  static constexpr std::uint32_t place_and_lens = 0;
   /// Returns the numbers, each in [0, 1), by which as many samples decide as there are lanes. Each
-  /// decision of a pixel has a sequence of its own, and these are independent: the points of each
-  /// have an order of their own.
+  /// other decision of a pixel has a sequence of its own, and these are independent: the points of
+  /// each have an order of their own.
   ///
   /// Source: Burley, Practical hash-based Owen scrambling, 2020, section 4 (padding).
   static std::array<Lanes, sequence_dimensions> numbers_of_each(
@@ -276,7 +278,7 @@ inline std::array<Lanes, sequence_dimensions> PixelSequence::numbers_of_each(
   for (std::size_t i = 0; i < lane_count; ++i) {
     x[i] = static_cast<std::uint32_t>(decisions[i].x);
     y[i] = static_cast<std::uint32_t>(decisions[i].y);
-    numbers[i] = decisions[i].decision + 1;
+    numbers[i] = decisions[i].decision;
   }
   const auto words = philox_rounds<WordLanes>({x, y, numbers, use}, key_of(seed));
   // An octet has the lanes of two dimensions.
@@ -292,7 +294,10 @@ inline std::array<Lanes, sequence_dimensions> PixelSequence::numbers_of_each(
     indices[i] = decisions[lane].index;
     orders[i] = word(0) ^ (word(3) << 16 | word(3) >> 16);
   }
-  indices = reversed(scrambled_upwards(reversed(indices), orders));
+  const BitOctet in_order = reversed(scrambled_upwards(reversed(indices), orders));
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    if (decisions[i].decision != place_and_lens) indices[i] = in_order[i];
+  }
   std::array<BitOctet, 2> bits;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const auto of_index = bits_of<sequence_dimensions>(indices[lane]);

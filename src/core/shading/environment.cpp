@@ -80,6 +80,7 @@ Environment::Environment(const PreparedBackground& background)
       whole += cells[column];
     }
   }
+  soften();
   // Where all is black any density does.
   const double mean = whole / static_cast<double>(rows_ * columns_);
   const double least = whole > 0 ? even_share / (1 - even_share) * mean : 1;
@@ -89,6 +90,23 @@ Environment::Environment(const PreparedBackground& background)
     accumulate(cells);
   }
   accumulate(by_row_);
+}
+
+void Environment::soften() {
+  const std::vector<double> sharp = by_column_;
+  const auto of_row = [&](std::size_t row, std::size_t column) {
+    const double* const cells = &sharp[row * (columns_ + 1)];
+    return 0.25 * cells[(column + columns_ - 1) % columns_] + 0.5 * cells[column] +
+           0.25 * cells[(column + 1) % columns_];
+  };
+  for (std::size_t row = 0; row < rows_; ++row) {
+    const std::size_t above = row == 0 ? 0 : row - 1;
+    const std::size_t below = std::min(row + 1, rows_ - 1);
+    for (std::size_t column = 0; column < columns_; ++column) {
+      by_column_[row * (columns_ + 1) + column] =
+          0.25 * of_row(above, column) + 0.5 * of_row(row, column) + 0.25 * of_row(below, column);
+    }
+  }
 }
 
 void Environment::sample(const LightNumbers& numbers, LightSamples& light) const {

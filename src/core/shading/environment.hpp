@@ -29,6 +29,10 @@ class Environment {
   std::size_t bytes() const { return (by_row_.size() + by_column_.size()) * sizeof(double); }
 
  private:
+  /// Spreads what is in each cell to its neighbours, too. The edge of a bright spot may be in a
+  /// cell where all places that were looked at are dark, and a sample there would count far too
+  /// much.
+  void soften();
   /// Returns the probability of a cell over its share of all directions.
   double strength(std::size_t row, std::size_t column) const;
 
