@@ -146,10 +146,10 @@ PixelClass many_lights_pixels() {
   return {"many lights", scene, false};
 }
 
-/// Light of a small bright lamp comes through glass, where rays find it by chance alone.
+/// Light of a small bright ball comes through glass, where rays find it by chance alone.
 PixelClass caustic_pixels() {
-  const SphereLight lamp{.center = {1, 2.5, 1}, .radius = 0.1, .color = grey(100)};
-  PixelClass pixels{"caustic", floor_and_ball(lamp, glass(1.5)), false};
+  const SphereLight light{.center = {1, 2.5, 1}, .radius = 0.1, .color = grey(100)};
+  PixelClass pixels{"caustic", floor_and_ball(light, glass(1.5)), false};
   pixels.scene.settings.indirect = 1;
   return pixels;
 }
