@@ -23,6 +23,8 @@ using Phase = RenderState::Phase;
 constexpr int coarsest_step = 16;
 /// The first draft may take about so long.
 constexpr double first_draft_seconds = 0.03;
+/// What takes longer is refined evenly, all over the picture, though that takes some more time.
+constexpr double uneven_seconds = 0.3;
 /// A picture in progress is sent in this interval.
 constexpr milliseconds look_interval{80};
 /// It waits for so many times as long as the one before took, so that looking takes little time.
@@ -173,6 +175,7 @@ void Renderer::render_newest() {
   if (script_is_new) {
     scene_.reset();
     prepared_.reset();
+    shown_.reset();
     boxes_.reset();
     if (!run_script()) return;
   }
@@ -232,16 +235,39 @@ const std::vector<BoundingBox>& Renderer::boxes() {
   return *boxes_;
 }
 
-void Renderer::prepare_scene() {
-  if (!prepared_) say(Phase::preparing);
-  Scene scene = visible_scene(*scene_, places_, options_,
-                              [this]() -> const std::vector<BoundingBox>& { return boxes(); });
+/// Returns the scene as it is shown. As long as its entities are the same, they are that to
+/// prepare().
+Scene Renderer::shown_scene() {
+  const bool has_entities = shown_ && show_same_entities(shown_->options, options_);
+  Scene scene =
+      has_entities ? *scene_
+                   : visible_scene(*scene_, places_, options_,
+                                   [this]() -> const std::vector<BoundingBox>& { return boxes(); });
+  if (has_entities) scene.entities.clear();
   if (camera_) scene.camera = *camera_;
+  scene = scene_in_mode(std::move(scene), options_.mode, *script_camera_);
+  if (has_entities) {
+    scene.entities = shown_->entities;
+  } else {
+    shown_ = ShownEntities{options_, scene.entities};
+  }
+  return scene;
+}
+
+PreparedScene Renderer::prepare_shown(const Scene& scene) const {
   PrepareOptions options;
   options.earlier = prepared_ ? &*prepared_ : nullptr;
   options.go_on = [this] { return !script_is_old(); };
-  prepared_ = prepare(scene, options);
+  options.material = materials_of(options_.mode);
+  return prepare(scene, options);
+}
+
+void Renderer::prepare_scene() {
+  if (!prepared_) say(Phase::preparing);
+  Scene scene = shown_scene();
+  prepared_ = prepare_shown(scene);
   auto view = std::make_shared<const View>(View{revision_, std::move(scene), *prepared_, places_,
+                                                camera_.value_or(*script_camera_),
                                                 camera_.has_value(), reads_time_, original_});
   {
     const std::lock_guard lock(mutex_);
@@ -253,9 +279,9 @@ void Renderer::prepare_scene() {
 int Renderer::first_step() const {
   const Settings& settings = scene_->settings;
   const double pixels = static_cast<double>(settings.width) * settings.height;
-  if (pixels_a_second_ == 0) return std::max(1, std::min(settings.width, settings.height) / 64);
+  if (samples_a_second_ == 0) return std::max(1, std::min(settings.width, settings.height) / 64);
   int step = 1;
-  while (step < coarsest_step && pixels / (step * step) > first_draft_seconds * pixels_a_second_)
+  while (step < coarsest_step && pixels / (step * step) > first_draft_seconds * samples_a_second_)
     step *= 2;
   return step;
 }
@@ -267,19 +293,31 @@ void Renderer::draw_drafts() {
   const int first = std::max(std::min(first_step(), coarsest_step), least);
   const bool has_last = is_its_own_draft(view_->scene) || is_geometric(options_.channel);
   const int last = std::max(has_last ? 2 : 1, least);
-  for (int step = first; step >= last && (step == first || !is_old()); step /= 2)
-    draw_draft(step, step != first);
+  for (int step = first; step >= last && (step == first || !is_old()); step /= 2) {
+    const Scene draft = draft_of(view_->scene, step);
+    draw_draft(is_geometric(options_.channel) ? geometry_of(draft) : draft, step != first);
+  }
+  if (has_last || least > 1 || !takes_longer(1)) return;
+  for (const Scene& draft : finer_drafts(view_->scene)) {
+    if (is_old()) return;
+    draw_draft(draft, true);
+  }
 }
 
-void Renderer::draw_draft(int step, bool may_be_cancelled) {
-  Scene draft = draft_of(view_->scene, step);
-  if (is_geometric(options_.channel)) draft = geometry_of(std::move(draft));
+/// Says whether so many samples of each pixel take long, as far as drafts tell.
+bool Renderer::takes_longer(int samples) const {
+  const Settings& settings = view_->scene.settings;
+  return static_cast<double>(settings.width) * settings.height * samples >
+         uneven_seconds * samples_a_second_;
+}
+
+void Renderer::draw_draft(const Scene& draft, bool may_be_cancelled) {
   RenderOptions options = render_options();
   options.progress = [&](double) { return may_be_cancelled ? !is_old() : !script_is_old(); };
   const Clock::time_point begin = Clock::now();
-  const Image image = render(prepare(draft, *prepared_), options);
+  const Image image = render(prepare_shown(draft), options);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  pixels_a_second_ = static_cast<double>(image.width()) * image.height() / std::max(seconds, 1e-6);
+  samples_a_second_ = static_cast<double>(image.stats().camera_rays) / std::max(seconds, 1e-6);
   {
     // Pictures do not queue: the page must have taken those before.
     std::unique_lock lock(mutex_);
@@ -294,6 +332,7 @@ RenderOptions Renderer::render_options() const {
   RenderOptions options;
   options.threads = threads_;
   options.aovs = aovs_of(options_.channel);
+  options.evenly = takes_longer(view_->scene.settings.min_samples);
   return options;
 }
 
@@ -302,7 +341,7 @@ void Renderer::render_whole() {
   const bool is_geometry = is_geometric(options_.channel);
   RenderOptions options = render_options();
   options.region = clipped(options_.region, view_->scene.settings);
-  RenderJob job(is_geometry ? prepare(geometry_of(view_->scene), *prepared_) : *prepared_, options);
+  RenderJob job(is_geometry ? prepare_shown(geometry_of(view_->scene)) : *prepared_, options);
   Clock::time_point last_look = Clock::now();
   Clock::duration interval = look_interval;
   while (!job.finished()) {
@@ -333,7 +372,7 @@ void Renderer::render_whole() {
 
 void Renderer::finish(const std::shared_ptr<const Image>& image) {
   const bool is_part = clipped(options_.region, view_->scene.settings).has_value();
-  if (!is_part && !is_geometric(options_.channel)) {
+  if (!is_part && !is_geometric(options_.channel) && options_.mode == ViewMode::rendered) {
     const std::lock_guard lock(mutex_);
     picture_ = image;
   }

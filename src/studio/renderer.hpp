@@ -36,6 +36,7 @@ struct View {
   Scene scene;
   PreparedScene prepared;
   std::vector<EntityPlace> places;
+  Camera camera{};  ///< with its lens, also where a mode shows all sharp
   bool camera_is_overridden = false;
   bool reads_time = false;                  ///< as ScriptResult has it
   std::shared_ptr<const Scene> original{};  ///< with the camera and the numbers that it came with
@@ -87,17 +88,25 @@ class Renderer {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// ShownEntities are what some options show of a scene.
+  struct ShownEntities {
+    ViewOptions options;
+    std::vector<Entity> entities;
+  };
 
   void work();
   void render_or_say_why();
   void render_newest();
   bool run_script();
   void take_scene(std::shared_ptr<const Scene> scene, std::vector<EntityPlace> places);
+  Scene shown_scene();
+  PreparedScene prepare_shown(const Scene& scene) const;
   void prepare_scene();
   const std::vector<BoundingBox>& boxes();
   void draw_drafts();
   void render_whole();
-  void draw_draft(int step, bool may_be_cancelled);
+  void draw_draft(const Scene& draft, bool may_be_cancelled);
+  bool takes_longer(int samples) const;
   int first_step() const;
   bool is_old() const;
   bool script_is_old() const;
@@ -138,10 +147,11 @@ class Renderer {
   std::optional<Scene> scene_;             ///< with entities under numbers that say their places
   std::vector<EntityPlace> places_;
   bool reads_time_ = false;
+  std::optional<ShownEntities> shown_;
   std::optional<std::vector<BoundingBox>> boxes_;  ///< of the scene, once they are needed
   std::optional<PreparedScene> prepared_;
   std::uint32_t pictures_ = 0;
-  double pixels_a_second_ = 0;
+  double samples_a_second_ = 0;
   Clock::time_point start_;
 
   std::thread thread_;

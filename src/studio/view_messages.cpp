@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "studio/material_ball.hpp"
+#include "text/format.hpp"
 #include "text/json.hpp"
 
 namespace crt::studio {
@@ -20,17 +21,20 @@ namespace {
 
 constexpr std::array<const char*, 8> channels = {"color", "depth",  "normal",  "id",
                                                  "part",  "albedo", "samples", "error"};
+constexpr std::array<const char*, 3> modes = {"rendered", "material", "clay"};
 /// Boxes are computed for so many entities, of so many primitives together.
 constexpr std::size_t max_boxes = 2000;
 constexpr std::uint64_t most_primitives = 100'000;
 /// Regions end here. No picture is larger.
 constexpr int largest_side = 65536;
 
-Channel channel_of(const std::string& name) {
-  const auto found = std::find(channels.begin(), channels.end(), name);
-  if (found == channels.end())
-    throw Error(ErrorCode::invalid_argument, "there is no channel '" + name + "'");
-  return static_cast<Channel>(found - channels.begin());
+/// Finds what has a name. `what` says what that is.
+template <class Kind, std::size_t count>
+Kind named(const std::array<const char*, count>& names, const std::string& name, const char* what) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw Error(ErrorCode::invalid_argument, text::format("there is no {} '{}'", what, name));
+  return static_cast<Kind>(found - names.begin());
 }
 
 double finite_number(const json& value) {
@@ -72,7 +76,8 @@ void add_box(json& boxes, const Entity& entity) {
 
 ViewOptions view_options_of(const json& value, const TextPlaces& places) {
   ViewOptions options;
-  options.channel = channel_of(value.at("channel").get<std::string>());
+  options.channel = named<Channel>(channels, value.at("channel").get<std::string>(), "channel");
+  options.mode = named<ViewMode>(modes, value.value("mode", modes[0]), "mode");
   for (const json& span : value.at("hidden")) {
     options.hidden.push_back({places.byte_of(text::whole_number<std::uint32_t>(span.at(0))),
                               places.byte_of(text::whole_number<std::uint32_t>(span.at(1)))});

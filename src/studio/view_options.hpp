@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "studio/view_mode.hpp"
+
 namespace crt::studio {
 
 /// Says which of a pixel's numbers is shown.
@@ -25,6 +27,7 @@ struct SectionPlane {
 
 struct ViewOptions {
   Channel channel = Channel::color;
+  ViewMode mode = ViewMode::rendered;
   std::vector<TextSpan> hidden{};  ///< statements of the script whose entities are not shown
   std::optional<SectionPlane> section{};
   std::optional<Region> region{};  ///< the part of the picture that is refined
@@ -33,6 +36,9 @@ struct ViewOptions {
 
 /// Says whether two options differ by nothing but their regions.
 bool differ_in_region_alone(const ViewOptions& a, const ViewOptions& b);
+
+/// Says whether visible_scene() and then scene_in_mode() give the same entities by two options.
+bool show_same_entities(const ViewOptions& a, const ViewOptions& b);
 
 /// Returns what of a region lies in a picture, or nothing.
 std::optional<Region> clipped(const std::optional<Region>& region, const Settings& settings);

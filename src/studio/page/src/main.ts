@@ -45,6 +45,7 @@ class Studio {
   private readonly view = new LiveView({
     cameraMoved: (camera) => this.setCamera(camera),
     cameraReset: () => this.setCamera(null),
+    modeChanged: () => this.viewState.nextMode(),
     picked: (x, y, focuses) => void this.pick(x, y, focuses),
     regionChosen: (region) => {
       this.controls.wantRegion(false);

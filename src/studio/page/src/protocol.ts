@@ -112,6 +112,8 @@ export interface SectionPlane {
 /** What the view shows of the scene, without touching the script. */
 export interface ViewOptions {
   channel: string;
+  /** In what light the scene is shown: rendered, material or clay. */
+  mode: string;
   hidden: Span[];
   section: SectionPlane | null;
   region: Region | null;
