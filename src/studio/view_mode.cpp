@@ -25,31 +25,32 @@ constexpr int most_bounces = 6;
 /// The panorama has so many rows. All in it is soft.
 constexpr int panorama_rows = 64;
 
-/// A Lamp shines from a direction: x is to the right of a camera, y up, and z ahead.
-struct Lamp {
+/// A FarLight shines from a direction: x is to the right of a camera, y up, and z ahead.
+struct FarLight {
   Vec3 from;
   double strength;  ///< of a parallel light
 };
 
 /// These light materials. They are points, so that highlights have no noise, and throw no shadows.
 /// The panorama has them as well, for mirrors.
-constexpr std::array<Lamp, 4> studio_lamps = {{{{-0.75, 0.8, -0.6}, 0.6},
-                                               {{0.95, 0.25, -0.35}, 0.25},
-                                               {{0.35, 0.55, 0.9}, 0.3},
-                                               {{0, -0.6, -0.8}, 0.1}}};
+constexpr std::array<FarLight, 4> studio_lights = {{{{-0.75, 0.8, -0.6}, 0.6},
+                                                    {{0.95, 0.25, -0.35}, 0.25},
+                                                    {{0.35, 0.55, 0.9}, 0.3},
+                                                    {{0, -0.6, -0.8}, 0.1}}};
 constexpr double studio_ambient = 0.2;
-/// In the panorama a lamp is white up to the first angle, in radians, and fades up to the second.
-constexpr double lamp_inner = 0.2;
-constexpr double lamp_outer = 0.4;
-constexpr double lamp_radiance = 5;
+/// In the panorama each is a spot, white up to the first angle in radians, which fades up to the
+/// second.
+constexpr double spot_inner = 0.2;
+constexpr double spot_outer = 0.4;
+constexpr double spot_radiance = 5;
 
 /// These light clay: parts of a sky, each as wide as the angle.
-constexpr std::array<Lamp, 5> sky_lamps = {{{{0, 1, 0}, 0.4},
-                                            {{-0.8, 0.7, -0.6}, 0.45},
-                                            {{0.8, 0.6, -0.6}, 0.25},
-                                            {{-0.8, 0.6, 0.6}, 0.12},
-                                            {{0.8, 0.6, 0.6}, 0.18}}};
-constexpr double sky_lamp_angle = 0.9;
+constexpr std::array<FarLight, 5> sky_lights = {{{{0, 1, 0}, 0.4},
+                                                 {{-0.8, 0.7, -0.6}, 0.45},
+                                                 {{0.8, 0.6, -0.6}, 0.25},
+                                                 {{-0.8, 0.6, 0.6}, 0.12},
+                                                 {{0.8, 0.6, 0.6}, 0.18}}};
+constexpr double sky_light_angle = 0.9;
 constexpr double sky_ambient = 0.06;
 /// The camera's own light shows shapes where no sky is seen, as in rooms.
 constexpr Color camera_light_color = {0.35, 0.35, 0.35};
@@ -63,13 +64,13 @@ double smooth_step(double low, double high, double x) {
   return share * share * (3 - 2 * share);
 }
 
-/// Returns the light of the studio from a direction: soft from above, dark below, and lamps.
+/// Returns the light of the studio from a direction: soft from above, dark below, and spots.
 double studio_light(const Vec3& direction) {
   double light = 0.1 + 0.45 * smooth_step(-0.6, 0.9, direction.y);
-  for (const auto& [from, strength] : studio_lamps) {
+  for (const auto& [from, strength] : studio_lights) {
     const double along = from.x * direction.x + from.y * direction.y + from.z * direction.z;
     const double angle = std::acos(std::clamp(along / length_of(from), -1.0, 1.0));
-    light += lamp_radiance * strength * (1 - smooth_step(lamp_inner, lamp_outer, angle));
+    light += spot_radiance * strength * (1 - smooth_step(spot_inner, spot_outer, angle));
   }
   return light;
 }
@@ -90,9 +91,9 @@ std::shared_ptr<const Image> studio_panorama() {
 
 /// Adds parallel lights as wide as an angle, turned about y. The first has an ambient share that
 /// makes so much of white.
-void add_lamps(std::vector<Light>& lights, std::span<const Lamp> lamps, double turn, double angle,
-               double ambient) {
-  for (const auto& [from, strength] : lamps) {
+void add_lights(std::vector<Light>& lights, std::span<const FarLight> far_lights, double turn,
+                double angle, double ambient) {
+  for (const auto& [from, strength] : far_lights) {
     const Vec3 turned{std::cos(turn) * from.x + std::sin(turn) * from.z, from.y,
                       std::cos(turn) * from.z - std::sin(turn) * from.x};
     lights.push_back(ParallelLight{.from = turned,
@@ -143,13 +144,13 @@ Scene scene_in_mode(Scene scene, ViewMode mode, const Camera& front) {
   scene.lights.clear();
   simplify(scene);
   if (mode == ViewMode::clay) {
-    add_lamps(scene.lights, sky_lamps, turn, sky_lamp_angle, sky_ambient);
+    add_lights(scene.lights, sky_lights, turn, sky_light_angle, sky_ambient);
     scene.lights.push_back(light_at(scene.camera));
     scene.background = GradientBackground{.horizon = grey(0.3), .sky = grey(0.5)};
     return scene;
   }
   static const std::shared_ptr<const Image> panorama = studio_panorama();
-  add_lamps(scene.lights, studio_lamps, turn, 0, studio_ambient);
+  add_lights(scene.lights, studio_lights, turn, 0, studio_ambient);
   // A panorama of 2015 turns the other way.
   scene.background =
       PanoramaBackground{.image = panorama, .angle = scene.settings.compat == 0 ? -turn : turn};

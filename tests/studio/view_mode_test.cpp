@@ -95,7 +95,7 @@ TEST_CASE("materials keep their colours, also in a room without a window") {
   }
 }
 
-TEST_CASE("a metal mirrors the studio's lamps, brighter than white and not all the same") {
+TEST_CASE("a metal mirrors the studio's lights, brighter than white and not all the same") {
   const Image image = shown(two_balls(mirror, mirror), ViewMode::material);
   double darkest = 1e9;
   double brightest = 0;
