@@ -291,8 +291,8 @@ class Studio {
   }
 
   private async ballOf(node: TreeNode): Promise<string | null> {
-    const material = this.selection.materialOf(node);
-    const file = material && await this.ask('preview', material.span[0]);
+    const place = this.selection.materialOf(node);
+    const file = place === null ? null : await this.ask('preview', place);
     return typeof file === 'string' ? `data:image/png;base64,${file}` : null;
   }
 

@@ -11,6 +11,8 @@ export interface Attribute {
   numbers?: number[];
   text?: string;
   reason?: string;
+  /** Has the value of an inherited attribute as it is written. */
+  written?: string;
 }
 
 export interface TreeNode {
@@ -20,6 +22,10 @@ export interface TreeNode {
   nameSpan: Span;
   parent: number;
   attributes: Attribute[];
+  /** Is the variable that a derived material is a copy of. */
+  base?: string;
+  /** Has what a derived material has from there, without places. */
+  inherited?: Attribute[];
 }
 
 export interface AttributeDescription {
