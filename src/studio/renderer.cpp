@@ -1,38 +1,18 @@
 #include "studio/renderer.hpp"
 
-#include <algorithm>
-#include <crt/draft.hpp>
 #include <crt/error.hpp>
-#include <crt/job.hpp>
 #include <exception>
 #include <new>
 #include <utility>
 
-#include "studio/channel_picture.hpp"
-#include "studio/draft.hpp"
 #include "studio/place_text.hpp"
 
 namespace crt::studio {
 
 namespace {
 
-using std::chrono::milliseconds;
 using Phase = RenderState::Phase;
 
-/// A draft has a pixel for so many of the picture, across and down.
-constexpr int coarsest_step = 16;
-/// The first draft may take about so long.
-constexpr double first_draft_seconds = 0.03;
-/// What takes longer is refined evenly, all over the picture, though that takes some more time.
-constexpr double uneven_seconds = 0.3;
-/// A picture in progress is sent in this interval.
-constexpr milliseconds look_interval{80};
-/// It waits for so many times as long as the one before took, so that looking takes little time.
-constexpr int looking_pause = 9;
-/// A job is asked in this interval whether it has ended.
-constexpr milliseconds end_interval{8};
-/// So many pictures may be on their way to the page.
-constexpr std::uint32_t max_on_their_way = 2;
 /// A script prints so many lines at most.
 constexpr int max_lines = 1000;
 
@@ -84,10 +64,14 @@ void Renderer::set_script(Revision revision, std::optional<ViewOptions> options)
 
 void Renderer::set_options(ViewOptions options) {
   const std::lock_guard lock(mutex_);
-  if (options.t != asked_options_.t) ++script_changes_;
+  if (differ_in_display_alone(options, asked_options_)) {
+    ++display_changes_;
+  } else {
+    if (options.t != asked_options_.t) ++script_changes_;
+    is_cancelled_ = false;
+    ++changes_;
+  }
   asked_options_ = std::move(options);
-  is_cancelled_ = false;
-  ++changes_;
   changed_.notify_all();
 }
 
@@ -130,14 +114,21 @@ std::shared_ptr<const Image> Renderer::picture() const {
 
 void Renderer::work() {
   while (true) {
+    bool has_changed = false;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return is_ended_ || changes_ != change_; });
+      changed_.wait(lock,
+                    [this] { return is_ended_ || changes_ != change_ || is_to_be_shown_again(); });
       if (is_ended_) return;
+      has_changed = changes_ != change_;
     }
-    start_ = Clock::now();
     try {
-      render_or_say_why();
+      if (has_changed) {
+        start_ = Clock::now();
+        render_or_say_why();
+      } else {
+        show_again();
+      }
     } catch (const std::exception&) {
       // There is not even memory to say so.
     }
@@ -276,111 +267,6 @@ void Renderer::prepare_scene() {
   events_.scene(*view);
 }
 
-int Renderer::first_step() const {
-  const Settings& settings = scene_->settings;
-  const double pixels = static_cast<double>(settings.width) * settings.height;
-  if (samples_a_second_ == 0) return std::max(1, std::min(settings.width, settings.height) / 64);
-  int step = 1;
-  while (step < coarsest_step && pixels / (step * step) > first_draft_seconds * samples_a_second_)
-    step *= 2;
-  return step;
-}
-
-/// The first draft is always drawn, so that a camera that never rests is seen moving.
-void Renderer::draw_drafts() {
-  const Settings& settings = view_->scene.settings;
-  const int least = shown_step(settings.width, settings.height);
-  const int first = std::max(std::min(first_step(), coarsest_step), least);
-  const bool has_last = is_its_own_draft(view_->scene) || is_geometric(options_.channel);
-  const int last = std::max(has_last ? 2 : 1, least);
-  for (int step = first; step >= last && (step == first || !is_old()); step /= 2) {
-    const Scene draft = draft_of(view_->scene, step);
-    draw_draft(is_geometric(options_.channel) ? geometry_of(draft) : draft, step != first);
-  }
-  if (has_last || least > 1 || !takes_longer(1)) return;
-  for (const Scene& draft : finer_drafts(view_->scene)) {
-    if (is_old()) return;
-    draw_draft(draft, true);
-  }
-}
-
-/// Says whether so many samples of each pixel take long, as far as drafts tell.
-bool Renderer::takes_longer(int samples) const {
-  const Settings& settings = view_->scene.settings;
-  return static_cast<double>(settings.width) * settings.height * samples >
-         uneven_seconds * samples_a_second_;
-}
-
-void Renderer::draw_draft(const Scene& draft, bool may_be_cancelled) {
-  RenderOptions options = render_options();
-  options.progress = [&](double) { return may_be_cancelled ? !is_old() : !script_is_old(); };
-  const Clock::time_point begin = Clock::now();
-  const Image image = render(prepare_shown(draft), options);
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  samples_a_second_ = static_cast<double>(image.stats().camera_rays) / std::max(seconds, 1e-6);
-  {
-    // Pictures do not queue: the page must have taken those before.
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock,
-                  [&] { return has_taken() || is_ended_ || script_changes_ != script_change_; });
-    if (is_ended_ || script_changes_ != script_change_) return;
-  }
-  send(PictureKind::draft, image);
-}
-
-RenderOptions Renderer::render_options() const {
-  RenderOptions options;
-  options.threads = threads_;
-  options.aovs = aovs_of(options_.channel);
-  options.evenly = takes_longer(view_->scene.settings.min_samples);
-  return options;
-}
-
-void Renderer::render_whole() {
-  if (is_old()) return say(Phase::cancelled);
-  const bool is_geometry = is_geometric(options_.channel);
-  RenderOptions options = render_options();
-  options.region = clipped(options_.region, view_->scene.settings);
-  RenderJob job(is_geometry ? prepare_shown(geometry_of(view_->scene)) : *prepared_, options);
-  Clock::time_point last_look = Clock::now();
-  Clock::duration interval = look_interval;
-  while (!job.finished()) {
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait_for(lock, end_interval,
-                        [this] { return changes_ != change_ || is_cancelled_; });
-      if (changes_ != change_) return;
-      if (is_cancelled_) {
-        job.cancel();
-        break;
-      }
-    }
-    const Clock::time_point look = Clock::now();
-    if (look - last_look < interval) continue;
-    say(Phase::rendering, job.progress());
-    if (may_send() && !job.finished()) send(PictureKind::progress, job.snapshot());
-    last_look = Clock::now();
-    interval = std::max<Clock::duration>(look_interval, looking_pause * (last_look - look));
-  }
-  try {
-    finish(std::make_shared<const Image>(job.wait()));
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::cancelled) throw;
-    say(Phase::cancelled, job.progress());
-  }
-}
-
-void Renderer::finish(const std::shared_ptr<const Image>& image) {
-  const bool is_part = clipped(options_.region, view_->scene.settings).has_value();
-  if (!is_part && !is_geometric(options_.channel) && options_.mode == ViewMode::rendered) {
-    const std::lock_guard lock(mutex_);
-    picture_ = image;
-  }
-  send(is_part ? PictureKind::progress : PictureKind::final, *image);
-  events_.finished(revision_, *image);
-  say(Phase::done, 1);
-}
-
 bool Renderer::is_old() const {
   const std::lock_guard lock(mutex_);
   return changes_ != change_ || is_cancelled_;
@@ -394,36 +280,6 @@ bool Renderer::script_is_old() const {
 void Renderer::say(Phase phase, double progress, std::string message) const {
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   events_.state({phase, revision_.number, progress, seconds, std::move(message)});
-}
-
-/// Says whether the page has taken so many pictures that another may go. The mutex is locked.
-bool Renderer::has_taken() const {
-  return pictures_ < std::uint64_t{acknowledged_} + max_on_their_way;
-}
-
-bool Renderer::may_send() const {
-  const std::lock_guard lock(mutex_);
-  return has_taken();
-}
-
-void Renderer::send(PictureKind kind, const Image& image) {
-  const Settings& settings = view_->scene.settings;
-  EncodedPicture picture{kind,
-                         ++pictures_,
-                         revision_.number,
-                         static_cast<std::uint32_t>(settings.width),
-                         static_cast<std::uint32_t>(settings.height),
-                         static_cast<std::uint32_t>(image.width()),
-                         static_cast<std::uint32_t>(image.height()),
-                         displayed(image, options_.channel)};
-  const std::optional<Region> region = clipped(options_.region, settings);
-  if (region && kind != PictureKind::draft) {
-    picture.rgba = placed(picture.rgba, *region, settings.width, settings.height);
-    picture.width = picture.full_width;
-    picture.height = picture.full_height;
-  }
-  reduce(picture);
-  events_.picture(picture);
 }
 
 }  // namespace crt::studio

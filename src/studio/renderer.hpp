@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "studio/layers.hpp"
 #include "studio/picture_frame.hpp"
 #include "studio/view_options.hpp"
 
@@ -115,7 +116,10 @@ class Renderer {
   void say(RenderState::Phase phase, double progress = 0, std::string message = {}) const;
   bool has_taken() const;
   bool may_send() const;
-  void send(PictureKind kind, const Image& image);
+  void send(PictureKind kind, std::shared_ptr<const Image> image);
+  bool is_to_be_shown_again() const;
+  void send(const Layer& layer);
+  void show_again();
 
   const RenderEvents events_;
   const int threads_;
@@ -127,7 +131,8 @@ class Renderer {
   std::optional<Camera> asked_camera_;
   ViewOptions asked_options_;
   std::uint64_t script_changes_ = 0;
-  std::uint64_t changes_ = 0;  ///< of anything
+  std::uint64_t changes_ = 0;          ///< of anything that is rendered
+  std::uint64_t display_changes_ = 0;  ///< of how light is shown, and of nothing else
   bool is_cancelled_ = false;
   bool is_ended_ = false;
   std::uint32_t acknowledged_ = 0;
@@ -137,6 +142,7 @@ class Renderer {
   // What the renderer's thread works on.
   std::uint64_t script_change_ = 0;
   std::uint64_t change_ = 0;
+  std::uint64_t display_change_ = 0;
   Revision revision_;
   std::optional<Camera> camera_;
   ViewOptions options_;
@@ -150,6 +156,7 @@ class Renderer {
   std::optional<ShownEntities> shown_;
   std::optional<std::vector<BoundingBox>> boxes_;  ///< of the scene, once they are needed
   std::optional<PreparedScene> prepared_;
+  Layers layers_;
   std::uint32_t pictures_ = 0;
   double samples_a_second_ = 0;
   Clock::time_point start_;

@@ -22,6 +22,9 @@ namespace {
 constexpr std::array<const char*, 8> channels = {"color", "depth",  "normal",  "id",
                                                  "part",  "albedo", "samples", "error"};
 constexpr std::array<const char*, 3> modes = {"rendered", "material", "clay"};
+constexpr std::array<const char*, 2> tone_maps = {"none", "filmic"};
+/// Exposures go this far, as those of settings do.
+constexpr double most_stops = 100;
 /// Boxes are computed for so many entities, of so many primitives together.
 constexpr std::size_t max_boxes = 2000;
 constexpr std::uint64_t most_primitives = 100'000;
@@ -59,6 +62,17 @@ Region region_of(const json& value) {
   return {number("x"), number("y"), number("width"), number("height")};
 }
 
+/// Without any the picture is shown as files are.
+Display display_of(const json& value) {
+  Display display;
+  if (value.contains("exposure"))
+    display.exposure = std::clamp(finite_number(value.at("exposure")), -most_stops, most_stops);
+  if (value.contains("toneMap") && !value.at("toneMap").is_null())
+    display.tone_map =
+        named<ToneMap>(tone_maps, value.at("toneMap").get<std::string>(), "tone map");
+  return display;
+}
+
 json corner_json(const Vec3& corner) {
   json result = json::array();
   for (const double x : {corner.x, corner.y, corner.z})
@@ -85,6 +99,7 @@ ViewOptions view_options_of(const json& value, const TextPlaces& places) {
   if (!value.at("section").is_null()) options.section = section_of(value.at("section"));
   if (!value.at("region").is_null()) options.region = region_of(value.at("region"));
   options.t = finite_number(value.at("t"));
+  options.display = display_of(value);
   return options;
 }
 

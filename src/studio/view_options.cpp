@@ -9,11 +9,6 @@ namespace crt::studio {
 
 namespace {
 
-bool is_same_region(const std::optional<Region>& a, const std::optional<Region>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
-}
-
 /// HiddenSpans say at once whether one of many spans encloses another.
 class HiddenSpans {
  public:
@@ -50,9 +45,19 @@ Plane cutter_of(const SectionPlane& section) {
 
 }  // namespace
 
+bool is_same_region(const std::optional<Region>& a, const std::optional<Region>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
+}
+
 bool differ_in_region_alone(const ViewOptions& a, const ViewOptions& b) {
   return a.channel == b.channel && a.t == b.t && show_same_entities(a, b) &&
          !is_same_region(a.region, b.region);
+}
+
+bool differ_in_display_alone(const ViewOptions& a, const ViewOptions& b) {
+  return a.channel == b.channel && a.t == b.t && show_same_entities(a, b) &&
+         is_same_region(a.region, b.region) && a.display != b.display;
 }
 
 bool show_same_entities(const ViewOptions& a, const ViewOptions& b) {

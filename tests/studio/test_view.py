@@ -212,6 +212,29 @@ class View(OpenedFolder):
         shown = bytes(byte for i, byte in enumerate(pixels) if i % 4 < 3)
         self.assertEqual(shown, file.read_bytes()[-3 * WIDTH * HEIGHT :])
 
+    def test_the_view_has_an_exposure_of_its_own_for_which_nothing_is_rendered(self):
+        script, file = self.folder / "toned.crt", self.folder / "toned.ppm"
+        script.write_text(
+            SCENE.replace("supersampling -> 2", "supersampling -> 2 exposure -> 1.5")
+            .replace("Settings {", 'Settings { tonemap -> "filmic"')
+        )
+        subprocess.run([COMMAND, "render", "--quiet", script, "-o", file], check=True)
+        before = self.client.picture("exr")
+        self.client.send(type="view", view={**ALL, "exposure": 1.5, "toneMap": "filmic"})
+        message = self.client.receive()
+        numbers = struct.unpack("<10I", message[:40])  # a picture, before any state of a render
+        self.assertEqual((numbers[1], numbers[9]), (0x102, HEIGHT))
+        self.client.send(type="acknowledge", picture=numbers[2])
+        shown = bytes(byte for i, byte in enumerate(message[40:]) if i % 4 < 3)
+        self.assertEqual(shown, file.read_bytes()[-3 * WIDTH * HEIGHT :])
+        self.assertEqual(self.client.picture("exr"), before)
+        # It stays when something is rendered, and goes without another render.
+        self.client.send(type="render", action="restart")
+        self.assertEqual(self.whole()[0], message[40:])
+        self.client.wait("state")
+        self.client.send(type="view", view=ALL)
+        self.assertEqual(self.client.receive()[40:], self.picture)
+
     def test_what_the_camera_does_not_see_is_not_picked_and_may_be_cut(self):
         front = "Box { cornerA -> vec3(-9, -9, -2) cornerB -> vec3(9, 9, -1) visible -> false }"
         self.client.set_text(SCENE.replace("    ball(-1)\n", f"    {front}\n    ball(-1)\n"))
@@ -325,6 +348,8 @@ class View(OpenedFolder):
             {"section": {"axis": 0, "offset": "far", "isFlipped": False}},
             {"region": {"x": 0}},
             {"t": None},
+            {"exposure": "bright"},
+            {"toneMap": "sepia"},
         ):
             with self.subTest(wrong):
                 self.client.send(type="view", view={**ALL, **wrong})

@@ -124,6 +124,10 @@ export interface ViewOptions {
   section: SectionPlane | null;
   region: Region | null;
   t: number;
+  /** Stops by which the picture is shown brighter than the script says. */
+  exposure: number;
+  /** The tone map in the place of the script's, or null. */
+  toneMap: string | null;
 }
 
 /** A box around an entity. Sides at infinity are null. */

@@ -15,9 +15,13 @@ function keptMode(): string {
   return modes.some(([mode]) => mode === kept) ? kept! : modes[0][0];
 }
 
+/** All of a scene, as files are. */
+const whole = {hidden: [], section: null, region: null, t: 0};
+const plain = {exposure: 0, toneMap: null};
+
 export class ViewState {
   options: ViewOptions = {
-    channel: 'color', mode: keptMode(), hidden: [], section: null, region: null, t: 0};
+    channel: 'color', mode: keptMode(), ...whole, ...plain};
 
   constructor(private readonly changed: () => void) {}
 
@@ -63,6 +67,6 @@ export class ViewState {
 
   /** Shows all of another script. */
   reset(): void {
-    this.options = {...this.options, hidden: [], section: null, region: null, t: 0};
+    this.options = {...this.options, ...whole, ...plain};
   }
 }

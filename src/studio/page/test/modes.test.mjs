@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {cameraOf, dragPicture, pixelAt, scene, shownBytes, showsBytes, withPage} from './page.mjs';
+import {cameraOf, dragPicture, pixelAt, scene, shownBytes, showsBytes, showsOther, withPage}
+  from './page.mjs';
 import {rendered, text, type, whole} from './studio.mjs';
 
 const box = [0.7, 0.5];
@@ -94,4 +95,48 @@ withPage('the file is the picture whatever mode is shown, which can be compared 
   }, box);
   assert.deepEqual(ofKept, first);
   assert.ok(isGrey(await pixelAt(page, ...box)));
+});
+
+withPage('the exposure is shown at once, also while one renders, and is of the view alone',
+         async ({page, folder}) => {
+  const first = await shownBytes(page);
+  const states = () => page.evaluate(() => {
+    window.states = 0;
+    const set = studio.queue.set.bind(studio.queue);
+    studio.queue.set = (state) => { window.states += 1; set(state); };
+  });
+  await states();
+  const [before] = await pixelAt(page, ...box);
+  const slider = page.getByLabel('Exposure', {exact: true});
+  await slider.fill('-2');
+  await showsOther(page, first);
+  const [after] = await pixelAt(page, ...box);
+  // Light of a quarter, in what a display shows.
+  assert.ok(Math.abs(after - before * 0.25 ** (1 / 2.2)) <= 1, `${before} ${after}`);
+  assert.equal(await page.getByLabel('Exposure in stops').inputValue(), '-2');
+  const dark = await shownBytes(page);
+  await page.getByLabel('Tone map').selectOption('filmic');
+  await showsOther(page, dark);
+  await page.getByLabel('Tone map').selectOption('');
+  await showsBytes(page, dark);
+  assert.equal(await page.evaluate(() => window.states), 0, 'nothing was rendered for it');
+
+  // It stays while one renders, and takes effect then, too.
+  await rendered(page, () => type(page, 'rgb(0.8, 0.1, 0.1)', 'rgb(0.1, 0.8, 0.1)'));
+  const [, green] = await pixelAt(page, ...box);
+  assert.ok(Math.abs(green - after) <= 1, `${green} ${after}`);
+  await page.evaluate((content) => studio.editor.replace(content),
+    scene.replace('supersampling -> 2', 'timebudget -> 1.5 maxsamples -> 65536'));
+  await page.waitForFunction(() => studio.view.lastKind === 'progress');
+  await slider.dblclick();
+  await page.waitForFunction(([u, v, old]) => {
+    const {canvas} = studio.view;
+    const [x, y] = [Math.floor(u * canvas.width), Math.floor(v * canvas.height)];
+    return Math.abs(canvas.getContext('2d').getImageData(x, y, 1, 1).data[0] - old) < 8 &&
+      studio.view.lastKind === 'progress';
+  }, [...box, before]);
+  await whole(page);
+  await rendered(page, () => page.evaluate((content) => studio.editor.replace(content), scene));
+  assert.equal(await shownBytes(page), first);
+  assert.equal(readFileSync(join(folder, 'a.crt'), 'utf8'), scene);
 });
