@@ -19,7 +19,9 @@ worn = dull { sheen -> 0.3 }
 paint = Material { color -> rgb(1, 0, 0) }
 gloss = paint { specular -> 0.5 }
 gold = satinGold { coat -> 1 }
-ball = Macro (wear) { Sphere { center -> vec3(0, 0, 0) radius -> 1 material -> wear { bumpheight -> 0 } } }
+ball = Macro (wear) {
+  Sphere { center -> vec3(0, 0, 0) radius -> 1 material -> wear { bumpheight -> 0 } }
+}
 Scene { ball(worn) }
 )";
 
