@@ -9,8 +9,7 @@ namespace crt::studio {
 
 namespace {
 
-/// Of more regions than these together, which were refined one after the other, the first is
-/// forgotten.
+/// There are so many at most. Where more regions were refined one by one, the first is forgotten.
 constexpr std::size_t most_layers = 8;
 
 /// Returns an image that is displayed in another exposure, or by another tone map.
