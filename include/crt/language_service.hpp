@@ -100,6 +100,9 @@ struct ScriptAttribute {
   std::string text{};  ///< what a string says
   /// Says for a value that is no literal what it is: "the variable 'wood'".
   std::string reason{};
+  /// Has the value as it is written, shortened to a line. Only inherited attributes have it, whose
+  /// spans are empty.
+  std::string written{};
 };
 
 /// Says what a node of the tree is.
@@ -109,7 +112,7 @@ enum class NodeKind {
   import,       ///< named by its path
   assignment,   ///< named by its variable
   macro,        ///< its name is that of the assignment above it
-  object,       ///< named by its type, with attributes
+  object,       ///< named by its type, with attributes; so are derived materials
   combination,  ///< of entities; its name is the first of the operators
   placed,       ///< what has modifiers; its name is theirs
   call,         ///< of a macro
@@ -129,6 +132,11 @@ struct ScriptNode {
   /// Is the place in the list of the node around it, or `no_parent`.
   std::size_t parent = no_parent;
   std::vector<ScriptAttribute> attributes{};
+  /// Names the variable whose copy a derived material is. Of others it is empty. If it is not known
+  /// which type of material the variable has, the node has its name.
+  std::string base{};
+  /// Lists the attributes that a derived material has from there, and not from `attributes`.
+  std::vector<ScriptAttribute> inherited{};
 
   static constexpr std::size_t no_parent = static_cast<std::size_t>(-1);
 };

@@ -63,6 +63,10 @@ struct PrepareOptions {
   /// several primitives, or a mesh, that is placed often counts once, and each of its uses as one
   /// primitive of 512 bytes. That is if copies of one Entity are placed, 16 or more.
   std::uint64_t max_primitives = 0;
+  /// Returns what stands in for a material of the scene, so that an editor can show shapes in clay.
+  /// It is called with each of them, on the thread that calls prepare(). Other materials on the
+  /// same entities cost as little as another light. Without it each material is what it is.
+  std::function<SharedMaterial(const SharedMaterial&)> material{};
 };
 
 /// Prepares a scene with options. Throws Error: cancelled, limit (max_primitives), out_of_memory

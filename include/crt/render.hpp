@@ -83,6 +83,10 @@ struct RenderOptions {
   std::uint64_t max_ray_steps = 0;
   /// Says what the image gets beside the colours, which stay the same.
   Aovs aovs{};
+  /// Shows a picture with a target error evenly while it is rendered (RenderJob::snapshot): passes
+  /// go over all of it one by one, as they do with a time budget. Without it each tile gets many
+  /// samples at once, which takes less time as a whole. The picture is the same.
+  bool evenly = false;
   /// Gets the messages of the render, a line each without its end. The thread that calls render()
   /// calls it.
   std::function<void(LogLevel, std::string_view)> log{};

@@ -13,6 +13,7 @@
 #include "lang/settings.hpp"
 #include "lang/word_byte.hpp"
 #include "service/completion_items.hpp"
+#include "service/material_kind.hpp"
 #include "text/format.hpp"
 
 namespace crt::service {
@@ -56,22 +57,34 @@ bool ends_in_text(const CutText& cut) {
 struct OpenObject {
   const lang::ObjectType* type = nullptr;
   lang::Span name;
+  bool is_derived = false;
 };
 
-std::optional<OpenObject> open_object(const CutText& cut) {
+/// Returns the type of the material that a name stands for at the end of a text, or null.
+const lang::ObjectType* type_of_material(const Program& before, std::string_view name,
+                                         std::uint32_t end) {
+  for (const lang::DeclaredName* declared : lang::names_at(before.names(), end)) {
+    if (before.symbols().name(declared->symbol) == name)
+      return declared->value ? material_type(before, *declared->value) : nullptr;
+  }
+  return nullptr;
+}
+
+/// `before` is the program of the same text.
+std::optional<OpenObject> open_object(const CutText& cut, const Program& before) {
   const auto& [tokens, comments, open] = cut.tokens;
   if (open.empty()) return std::nullopt;
   for (std::size_t i = 1; i < tokens.size(); ++i) {
     if (tokens[i].span != open.back()) continue;
-    const lang::Token& before = tokens[i - 1];
-    if (before.kind == Kind::S_SETTINGS) return OpenObject{&lang::settings_type(), before.span};
-    if (before.kind != Kind::S_OBJECT_NAME) return std::nullopt;
+    const auto& [kind, span] = tokens[i - 1];
+    if (kind == Kind::S_SETTINGS) return OpenObject{&lang::settings_type(), span};
+    const bool is_derived = kind == Kind::S_IDENTIFIER;
+    if (kind != Kind::S_OBJECT_NAME && !is_derived) return std::nullopt;
     const std::string_view name =
-        std::string_view(cut.source->text)
-            .substr(before.span.begin, before.span.end - before.span.begin);
-    if (const lang::ObjectType* type = lang::find_object_type(name))
-      return OpenObject{type, before.span};
-    return std::nullopt;
+        std::string_view(cut.source->text).substr(span.begin, span.end - span.begin);
+    const lang::ObjectType* type =
+        is_derived ? type_of_material(before, name, cut.end()) : lang::find_object_type(name);
+    return type ? std::optional(OpenObject{type, span, is_derived}) : std::nullopt;
   }
   return std::nullopt;
 }
@@ -89,6 +102,8 @@ std::set<std::string_view> given_attributes(const Program& program, lang::Span n
   for (const lang::Expression& expression : program.script().expressions) {
     const auto* object = std::get_if<lang::ObjectLiteral>(&expression.node);
     if (object && object->name.span == name) add(object->attributes);
+    const auto* derived = std::get_if<lang::DerivedMaterial>(&expression.node);
+    if (derived && derived->base->span == name) add(derived->attributes);
   }
   for (const lang::Statement& statement : program.script().statements.statements) {
     const auto* settings = std::get_if<lang::SettingsBlock>(&statement.node);
@@ -121,12 +136,18 @@ class Completer {
     // After a number's digits a letter begins nothing.
     if (list_.begin < list_.end && text[list_.begin] >= '0' && text[list_.begin] <= '9')
       return list_;
+    const Program before(cut.source->text, program_.main().name, options_);
+    const std::optional<OpenObject> object = open_object(cut, before);
+    if (object && object->is_derived && after_brace(cut)) {
+      add_attributes(*object);
+      return std::move(list_);
+    }
     const bool unsure = cut.expected.empty() || after_less(cut);
     const bool attribute_fits =
         cut.expects("a name") && cut.expects("}") && !cut.expects("a whole number");
-    if (attribute_fits || cut.expected.empty()) add_attributes(cut);
+    if (object && (attribute_fits || cut.expected.empty())) add_attributes(*object);
     const bool in_object = unsure && !list_.items.empty();
-    if (cut.expects("a whole number") || (unsure && !in_object)) add_expressions(cut);
+    if (cut.expects("a whole number") || (unsure && !in_object)) add_expressions(before);
     for (const std::string& name : cut.expected) {
       if (!std::all_of(name.begin(), name.end(), lang::is_word_byte)) continue;
       list_.items.push_back(items_.keyword(name));
@@ -143,20 +164,25 @@ class Completer {
            cut.source->text[cut.tokens.tokens.back().span.begin] == '<';
   }
 
-  void add_attributes(const CutText& cut) {
-    const std::optional<OpenObject> object = open_object(cut);
-    if (!object) return;
-    const std::set<std::string_view> given = given_attributes(program_, object->name, list_.begin);
+  /// Says whether the text ends in a brace. That is where a derived material has no attribute yet,
+  /// by which the front end would know it.
+  static bool after_brace(const CutText& cut) {
+    const auto& [tokens, comments, open] = cut.tokens;
+    return !open.empty() && tokens.back().span == open.back();
+  }
+
+  void add_attributes(const OpenObject& object) {
+    const std::set<std::string_view> given = given_attributes(program_, object.name, list_.begin);
     const bool needs_arrow = !arrow_follows(program_.main().text, list_.end);
-    for (const lang::AttributeType& attribute : object->type->attributes) {
+    for (const lang::AttributeType& attribute : object.type->attributes) {
       if (!given.contains(attribute.name))
-        list_.items.push_back(items_.attribute(*object->type, attribute, needs_arrow));
+        list_.items.push_back(items_.attribute(*object.type, attribute, needs_arrow));
     }
   }
 
-  void add_expressions(const CutText& cut) {
+  void add_expressions(const Program& before) {
     std::set<std::string, std::less<>> seen;
-    add_names(cut, seen);
+    add_names(before, seen);
     for (const lang::Builtin& builtin : lang::builtins()) {
       if (seen.emplace(builtin.name).second) list_.items.push_back(items_.function(builtin));
     }
@@ -169,9 +195,8 @@ class Completer {
 
   /// Adds the names that are set before the cursor, then those that the macro around the cursor
   /// finds when it is called.
-  void add_names(const CutText& cut, std::set<std::string, std::less<>>& seen) {
-    const Program before(cut.source->text, program_.main().name, options_);
-    add_names(before, cut.end(), 0, seen);
+  void add_names(const Program& before, std::set<std::string, std::less<>>& seen) {
+    add_names(before, static_cast<std::uint32_t>(before.main().text.size()), 0, seen);
     if (const std::optional<lang::Span> macro = macro_around(list_.begin))
       add_names(program_, macro->begin, 1, seen);
   }

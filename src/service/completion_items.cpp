@@ -114,6 +114,8 @@ std::string signature_of(const Program& program, const lang::DeclaredName& name)
     return text::format("{} = {}", text, lang::printable(value));
   if (const auto* object = std::get_if<lang::ObjectLiteral>(&name.value->node))
     return text::format("{} = {} {{ ... }}", text, program.symbols().name(object->name.symbol));
+  if (const auto* derived = std::get_if<lang::DerivedMaterial>(&name.value->node))
+    return text::format("{} = {} {{ ... }}", text, program.text_of(derived->base->span));
   return text::format("{} = ...", text);
 }
 

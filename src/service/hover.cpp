@@ -9,6 +9,7 @@
 #include "lang/settings.hpp"
 #include "lang/utf8.hpp"
 #include "service/completion_items.hpp"
+#include "service/material_kind.hpp"
 #include "text/format.hpp"
 
 namespace crt::service {
@@ -55,9 +56,16 @@ class AttributeSearch {
 
   std::string describe() const {
     for (const lang::Expression& expression : program_.script().expressions) {
-      const auto* object = std::get_if<lang::ObjectLiteral>(&expression.node);
-      if (!object || !has(object->attributes)) continue;
-      const auto* type = lang::find_object_type(program_.symbols().name(object->name.symbol));
+      const lang::ObjectType* type = nullptr;
+      if (const auto* object = std::get_if<lang::ObjectLiteral>(&expression.node)) {
+        if (!has(object->attributes)) continue;
+        type = lang::find_object_type(program_.symbols().name(object->name.symbol));
+      } else if (const auto* derived = std::get_if<lang::DerivedMaterial>(&expression.node)) {
+        if (!has(derived->attributes)) continue;
+        type = material_type(program_, expression);
+      } else {
+        continue;
+      }
       return type ? describe_attribute(*type, program_.text_of(span_), reference_) : std::string();
     }
     for (const lang::Statement& statement : program_.script().statements.statements) {

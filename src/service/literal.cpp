@@ -54,6 +54,8 @@ std::string reason_of(const Program& program, const lang::Expression& value) {
   }
   if (const auto* object = std::get_if<lang::ObjectLiteral>(&value.node))
     return text::format("an object {}", program.symbols().name(object->name.symbol));
+  if (const auto* derived = std::get_if<lang::DerivedMaterial>(&value.node))
+    return named("a copy of", *derived->base);
   if (std::holds_alternative<lang::ListLiteral>(value.node)) return "a list";
   return "a computed value";
 }

@@ -94,6 +94,12 @@ std::string_view Program::text_of(lang::Span span) const {
   return std::string_view(source.text).substr(begin, span.end - span.begin);
 }
 
+const lang::DeclaredName* Program::declared_at(lang::Span name) const {
+  const lang::NameUse* use = lang::use_at(names_, name.begin);
+  if (!use || use->span != name || use->declared == lang::NameUse::nothing) return nullptr;
+  return &names_.declared[use->declared];
+}
+
 const lang::Token* Program::token_at(std::uint32_t offset) const {
   const auto behind =
       std::upper_bound(tokens_.tokens.begin(), tokens_.tokens.end(), offset,

@@ -49,6 +49,9 @@ class Program {
 
   std::string_view text_of(lang::Span span) const;
 
+  /// Returns what a name at a place stands for, or null.
+  const lang::DeclaredName* declared_at(lang::Span name) const;
+
   /// Returns the token of the main script that an offset is in or just behind, or null.
   const lang::Token* token_at(std::uint32_t offset) const;
 

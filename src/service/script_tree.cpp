@@ -5,7 +5,9 @@
 #include <variant>
 
 #include "lang/tree_walk.hpp"
+#include "lang/utf8.hpp"
 #include "service/literal.hpp"
+#include "service/material_kind.hpp"
 
 namespace crt::service {
 
@@ -84,8 +86,7 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
         attribute.value_span = place_of(syntax.value->span);
         describe_value(program_, *syntax.value, attribute);
       }
-      // A material that is derived, and belongs to nothing, is no node.
-      if (owner != ScriptNode::no_parent) nodes_[owner].attributes.push_back(std::move(attribute));
+      nodes_[owner].attributes.push_back(std::move(attribute));
       // A variable's name says nothing more than the attribute does.
       if (syntax.value && !std::holds_alternative<lang::Name>(syntax.value->node))
         visit(syntax.value);
@@ -128,6 +129,21 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
   void operator()(const lang::ObjectLiteral& object) {
     const Inside inside(*this, NodeKind::object, text_of(object.name.symbol), object.name.span);
     TreeWalk::operator()(object);
+  }
+  void operator()(const lang::DerivedMaterial& material) {
+    const std::string base(program_.text_of(material.base->span));
+    const lang::ObjectType* type = material_type(program_, *material.base);
+    const Inside inside(*this, NodeKind::object, type ? std::string(type->name) : base,
+                        material.base->span);
+    const std::size_t node = parent_;
+    nodes_[node].base = base;
+    for (const lang::AttributeSyntax* syntax : inherited_attributes(program_, material)) {
+      ScriptAttribute attribute{.name = text_of(syntax->name.symbol)};
+      describe_value(program_, *syntax->value, attribute);
+      attribute.written = lang::abbreviated(program_.text_of(syntax->value->span));
+      nodes_[node].inherited.push_back(std::move(attribute));
+    }
+    visit(material.attributes);
   }
   void operator()(const lang::Chain& chain) {
     if (!may_be_entity(*expression_)) return TreeWalk::operator()(chain);
@@ -185,17 +201,12 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
 
   TextSpan place_of(lang::Span span) const { return span_in(program_.main(), span); }
 
-  const lang::DeclaredName* declared(lang::Span span) const {
-    const lang::NameUse* use = lang::use_at(program_.names(), span.begin);
-    if (!use || use->span != span || use->declared == lang::NameUse::nothing) return nullptr;
-    return &program_.names().declared[use->declared];
-  }
-
   /// Says whether a value looks like an entity, a material or a list of such: not like a number.
   bool may_be_entity(const Expression& expression) const {
     const Expression* value = &expression;
     for (int names = 0; value && names < max_names;) {
       if (std::holds_alternative<lang::ObjectLiteral>(value->node) ||
+          std::holds_alternative<lang::DerivedMaterial>(value->node) ||
           std::holds_alternative<lang::Modified>(value->node))
         return true;
       if (const auto* chain = std::get_if<lang::Chain>(&value->node)) {
@@ -204,10 +215,10 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
       } else if (const auto* list = std::get_if<lang::ListLiteral>(&value->node)) {
         value = list->items.empty() ? nullptr : list->items.front();
       } else if (const auto* call = std::get_if<lang::Call>(&value->node)) {
-        const lang::DeclaredName* callee = declared(call->callee->span);
+        const lang::DeclaredName* callee = program_.declared_at(call->callee->span);
         return callee && callee->kind == lang::NameKind::macro;
       } else if (std::holds_alternative<lang::Name>(value->node)) {
-        const lang::DeclaredName* name = declared(value->span);
+        const lang::DeclaredName* name = program_.declared_at(value->span);
         value = name && name->kind == lang::NameKind::variable ? name->value : nullptr;
         ++names;
       } else {

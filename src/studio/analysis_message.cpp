@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace crt::studio {
 
@@ -55,12 +56,24 @@ class AnalysisWriter {
     } else {
       number(node.parent);
     }
-    raw(R"(,"attributes":[)");
-    for (const ScriptAttribute& attribute : node.attributes) {
+    attributes("attributes", node.attributes);
+    if (!node.base.empty()) {
+      raw(R"(,"base":)");
+      string(node.base);
+      attributes("inherited", node.inherited);
+    }
+    text_ += '}';
+  }
+
+  void attributes(std::string_view name, const std::vector<ScriptAttribute>& list) {
+    text_ += ',';
+    string(name);
+    raw(":[");
+    for (const ScriptAttribute& attribute : list) {
       separate();
       write(attribute);
     }
-    raw("]}");
+    text_ += ']';
   }
 
   void write(const ScriptAttribute& attribute) {
@@ -89,6 +102,10 @@ class AnalysisWriter {
     if (!attribute.reason.empty()) {
       raw(R"(,"reason":)");
       string(attribute.reason);
+    }
+    if (!attribute.written.empty()) {
+      raw(R"(,"written":)");
+      string(attribute.written);
     }
     text_ += '}';
   }

@@ -7,6 +7,7 @@
 #include <crt/script.hpp>
 #include <string_view>
 
+#include "studio/view_mode.hpp"
 #include "text/base64.hpp"
 
 namespace crt::studio {
@@ -16,17 +17,14 @@ namespace {
 /// The ball's variables are computed within this, and else there is no ball.
 constexpr std::uint64_t most_steps = 1'000'000;
 
+/// Rough mirrors are smooth after some samples, and a ball must not take long.
+constexpr int max_samples = 32;
+
+/// The light is that of ViewMode::material.
 constexpr std::string_view stage = R"(
 Settings {
-    width -> 112 height -> 112 supersampling -> 3 recursiondepth -> 6
+    width -> 112 height -> 112 recursiondepth -> 6
     camera -> Camera { position -> vec3(0, 0.35, -3.2) pointing -> vec3(0, 0, 0) fov -> 42 }
-    lights -> [
-        ParallelLight {
-            from -> vec3(-2, 3, -2) pointing -> vec3(0, 0, 0) color -> rgb(0.9, 0.9, 0.9)
-            ambient -> 0.2
-        }
-    ]
-    background -> Background { horizon -> rgb(0.75, 0.78, 0.82) sky -> rgb(0.35, 0.5, 0.75) }
 }
 Scene {
     Plane {
@@ -36,6 +34,21 @@ Scene {
                 colorA -> rgb(0.6, 0.6, 0.6) colorB -> rgb(0.35, 0.35, 0.35) scale -> 0.5 } }
     }
     Sphere { center -> vec3(0, 0, 0) radius -> 1 material -> )";
+
+/// Returns the place of the material that begins at a byte, be it an object, derived, or what an
+/// attribute takes.
+std::optional<TextSpan> material_at(const std::vector<ScriptNode>& tree, std::uint32_t byte) {
+  for (const ScriptNode& node : tree) {
+    const bool is_material =
+        node.name == "Material" || node.name == "PrincipledMaterial" || !node.base.empty();
+    if (node.kind == NodeKind::object && is_material && node.span.begin == byte) return node.span;
+    for (const ScriptAttribute& attribute : node.attributes) {
+      if (attribute.name == "material" && attribute.value_span.begin == byte)
+        return attribute.value_span;
+    }
+  }
+  return std::nullopt;
+}
 
 /// Returns the script with the ball in place of its own scene.
 std::string script_of_ball(std::string text, const std::vector<ScriptNode>& tree,
@@ -52,17 +65,17 @@ std::string script_of_ball(std::string text, const std::vector<ScriptNode>& tree
 
 std::optional<std::string> material_ball(const std::string& text, const std::string& name,
                                          const std::vector<ScriptNode>& tree, std::uint32_t byte) {
-  const auto node = std::find_if(tree.begin(), tree.end(), [&](const ScriptNode& candidate) {
-    return candidate.kind == NodeKind::object && candidate.name == "Material" &&
-           candidate.span.begin == byte;
-  });
-  if (node == tree.end()) return std::nullopt;
+  const std::optional<TextSpan> place = material_at(tree, byte);
+  if (!place) return std::nullopt;
   ScriptOptions options;
   options.limits.steps = most_steps;
   try {
-    const ScriptResult result = run_script(script_of_ball(text, tree, node->span), name, options);
+    const ScriptResult result = run_script(script_of_ball(text, tree, *place), name, options);
     if (!result.scene) return std::nullopt;
-    const Image image = render(prepare(*result.scene), RenderOptions{.threads = 1});
+    const Camera camera = result.scene->camera;
+    Scene scene = scene_in_mode(*result.scene, ViewMode::material, camera);
+    scene.settings.max_samples = max_samples;
+    const Image image = render(prepare(scene), RenderOptions{.threads = 1});
     return text::base64(image.encode("png", {.reproducible = true}));
   } catch (const Error&) {
     return std::nullopt;

@@ -111,7 +111,7 @@ json state_message(const RenderState& state) {
 }
 
 json scene_message(const View& view) {
-  const Camera& camera = view.scene.camera;
+  const Camera& camera = view.camera;
   const Settings& settings = view.scene.settings;
   std::uint64_t primitives = 0;
   for (const Entity& entity : view.scene.entities) primitives += entity.primitive_count();
@@ -121,7 +121,7 @@ json scene_message(const View& view) {
           {"height", settings.height},
           {"entities", view.scene.entities.size()},
           {"primitives", primitives},
-          {"lights", view.scene.lights.size()},
+          {"lights", view.original->lights.size()},
           {"memory", view.prepared.memory().total()},
           {"warnings", view.prepared.warnings()},
           {"isOverridden", view.camera_is_overridden},

@@ -1,36 +1,18 @@
 #include "studio/renderer.hpp"
 
-#include <algorithm>
-#include <crt/draft.hpp>
 #include <crt/error.hpp>
-#include <crt/job.hpp>
 #include <exception>
 #include <new>
 #include <utility>
 
-#include "studio/channel_picture.hpp"
-#include "studio/draft.hpp"
 #include "studio/place_text.hpp"
 
 namespace crt::studio {
 
 namespace {
 
-using std::chrono::milliseconds;
 using Phase = RenderState::Phase;
 
-/// A draft has a pixel for so many of the picture, across and down.
-constexpr int coarsest_step = 16;
-/// The first draft may take about so long.
-constexpr double first_draft_seconds = 0.03;
-/// A picture in progress is sent in this interval.
-constexpr milliseconds look_interval{80};
-/// It waits for so many times as long as the one before took, so that looking takes little time.
-constexpr int looking_pause = 9;
-/// A job is asked in this interval whether it has ended.
-constexpr milliseconds end_interval{8};
-/// So many pictures may be on their way to the page.
-constexpr std::uint32_t max_on_their_way = 2;
 /// A script prints so many lines at most.
 constexpr int max_lines = 1000;
 
@@ -82,10 +64,14 @@ void Renderer::set_script(Revision revision, std::optional<ViewOptions> options)
 
 void Renderer::set_options(ViewOptions options) {
   const std::lock_guard lock(mutex_);
-  if (options.t != asked_options_.t) ++script_changes_;
+  if (differ_in_display_alone(options, asked_options_)) {
+    ++display_changes_;
+  } else {
+    if (options.t != asked_options_.t) ++script_changes_;
+    is_cancelled_ = false;
+    ++changes_;
+  }
   asked_options_ = std::move(options);
-  is_cancelled_ = false;
-  ++changes_;
   changed_.notify_all();
 }
 
@@ -128,14 +114,21 @@ std::shared_ptr<const Image> Renderer::picture() const {
 
 void Renderer::work() {
   while (true) {
+    bool has_changed = false;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return is_ended_ || changes_ != change_; });
+      changed_.wait(lock,
+                    [this] { return is_ended_ || changes_ != change_ || is_to_be_shown_again(); });
       if (is_ended_) return;
+      has_changed = changes_ != change_;
     }
-    start_ = Clock::now();
     try {
-      render_or_say_why();
+      if (has_changed) {
+        start_ = Clock::now();
+        render_or_say_why();
+      } else {
+        show_again();
+      }
     } catch (const std::exception&) {
       // There is not even memory to say so.
     }
@@ -173,6 +166,7 @@ void Renderer::render_newest() {
   if (script_is_new) {
     scene_.reset();
     prepared_.reset();
+    shown_.reset();
     boxes_.reset();
     if (!run_script()) return;
   }
@@ -232,114 +226,45 @@ const std::vector<BoundingBox>& Renderer::boxes() {
   return *boxes_;
 }
 
-void Renderer::prepare_scene() {
-  if (!prepared_) say(Phase::preparing);
-  Scene scene = visible_scene(*scene_, places_, options_,
-                              [this]() -> const std::vector<BoundingBox>& { return boxes(); });
+/// Returns the scene as it is shown. As long as its entities are the same, they are that to
+/// prepare().
+Scene Renderer::shown_scene() {
+  const bool has_entities = shown_ && show_same_entities(shown_->options, options_);
+  Scene scene =
+      has_entities ? *scene_
+                   : visible_scene(*scene_, places_, options_,
+                                   [this]() -> const std::vector<BoundingBox>& { return boxes(); });
+  if (has_entities) scene.entities.clear();
   if (camera_) scene.camera = *camera_;
+  scene = scene_in_mode(std::move(scene), options_.mode, *script_camera_);
+  if (has_entities) {
+    scene.entities = shown_->entities;
+  } else {
+    shown_ = ShownEntities{options_, scene.entities};
+  }
+  return scene;
+}
+
+PreparedScene Renderer::prepare_shown(const Scene& scene) const {
   PrepareOptions options;
   options.earlier = prepared_ ? &*prepared_ : nullptr;
   options.go_on = [this] { return !script_is_old(); };
-  prepared_ = prepare(scene, options);
+  options.material = materials_of(options_.mode);
+  return prepare(scene, options);
+}
+
+void Renderer::prepare_scene() {
+  if (!prepared_) say(Phase::preparing);
+  Scene scene = shown_scene();
+  prepared_ = prepare_shown(scene);
   auto view = std::make_shared<const View>(View{revision_, std::move(scene), *prepared_, places_,
+                                                camera_.value_or(*script_camera_),
                                                 camera_.has_value(), reads_time_, original_});
   {
     const std::lock_guard lock(mutex_);
     view_ = view;
   }
   events_.scene(*view);
-}
-
-int Renderer::first_step() const {
-  const Settings& settings = scene_->settings;
-  const double pixels = static_cast<double>(settings.width) * settings.height;
-  if (pixels_a_second_ == 0) return std::max(1, std::min(settings.width, settings.height) / 64);
-  int step = 1;
-  while (step < coarsest_step && pixels / (step * step) > first_draft_seconds * pixels_a_second_)
-    step *= 2;
-  return step;
-}
-
-/// The first draft is always drawn, so that a camera that never rests is seen moving.
-void Renderer::draw_drafts() {
-  const Settings& settings = view_->scene.settings;
-  const int least = shown_step(settings.width, settings.height);
-  const int first = std::max(std::min(first_step(), coarsest_step), least);
-  const bool has_last = is_its_own_draft(view_->scene) || is_geometric(options_.channel);
-  const int last = std::max(has_last ? 2 : 1, least);
-  for (int step = first; step >= last && (step == first || !is_old()); step /= 2)
-    draw_draft(step, step != first);
-}
-
-void Renderer::draw_draft(int step, bool may_be_cancelled) {
-  Scene draft = draft_of(view_->scene, step);
-  if (is_geometric(options_.channel)) draft = geometry_of(std::move(draft));
-  RenderOptions options = render_options();
-  options.progress = [&](double) { return may_be_cancelled ? !is_old() : !script_is_old(); };
-  const Clock::time_point begin = Clock::now();
-  const Image image = render(prepare(draft, *prepared_), options);
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  pixels_a_second_ = static_cast<double>(image.width()) * image.height() / std::max(seconds, 1e-6);
-  {
-    // Pictures do not queue: the page must have taken those before.
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock,
-                  [&] { return has_taken() || is_ended_ || script_changes_ != script_change_; });
-    if (is_ended_ || script_changes_ != script_change_) return;
-  }
-  send(PictureKind::draft, image);
-}
-
-RenderOptions Renderer::render_options() const {
-  RenderOptions options;
-  options.threads = threads_;
-  options.aovs = aovs_of(options_.channel);
-  return options;
-}
-
-void Renderer::render_whole() {
-  if (is_old()) return say(Phase::cancelled);
-  const bool is_geometry = is_geometric(options_.channel);
-  RenderOptions options = render_options();
-  options.region = clipped(options_.region, view_->scene.settings);
-  RenderJob job(is_geometry ? prepare(geometry_of(view_->scene), *prepared_) : *prepared_, options);
-  Clock::time_point last_look = Clock::now();
-  Clock::duration interval = look_interval;
-  while (!job.finished()) {
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait_for(lock, end_interval,
-                        [this] { return changes_ != change_ || is_cancelled_; });
-      if (changes_ != change_) return;
-      if (is_cancelled_) {
-        job.cancel();
-        break;
-      }
-    }
-    const Clock::time_point look = Clock::now();
-    if (look - last_look < interval) continue;
-    say(Phase::rendering, job.progress());
-    if (may_send() && !job.finished()) send(PictureKind::progress, job.snapshot());
-    last_look = Clock::now();
-    interval = std::max<Clock::duration>(look_interval, looking_pause * (last_look - look));
-  }
-  try {
-    finish(std::make_shared<const Image>(job.wait()));
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::cancelled) throw;
-    say(Phase::cancelled, job.progress());
-  }
-}
-
-void Renderer::finish(const std::shared_ptr<const Image>& image) {
-  const bool is_part = clipped(options_.region, view_->scene.settings).has_value();
-  if (!is_part && !is_geometric(options_.channel)) {
-    const std::lock_guard lock(mutex_);
-    picture_ = image;
-  }
-  send(is_part ? PictureKind::progress : PictureKind::final, *image);
-  events_.finished(revision_, *image);
-  say(Phase::done, 1);
 }
 
 bool Renderer::is_old() const {
@@ -355,36 +280,6 @@ bool Renderer::script_is_old() const {
 void Renderer::say(Phase phase, double progress, std::string message) const {
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   events_.state({phase, revision_.number, progress, seconds, std::move(message)});
-}
-
-/// Says whether the page has taken so many pictures that another may go. The mutex is locked.
-bool Renderer::has_taken() const {
-  return pictures_ < std::uint64_t{acknowledged_} + max_on_their_way;
-}
-
-bool Renderer::may_send() const {
-  const std::lock_guard lock(mutex_);
-  return has_taken();
-}
-
-void Renderer::send(PictureKind kind, const Image& image) {
-  const Settings& settings = view_->scene.settings;
-  EncodedPicture picture{kind,
-                         ++pictures_,
-                         revision_.number,
-                         static_cast<std::uint32_t>(settings.width),
-                         static_cast<std::uint32_t>(settings.height),
-                         static_cast<std::uint32_t>(image.width()),
-                         static_cast<std::uint32_t>(image.height()),
-                         displayed(image, options_.channel)};
-  const std::optional<Region> region = clipped(options_.region, settings);
-  if (region && kind != PictureKind::draft) {
-    picture.rgba = placed(picture.rgba, *region, settings.width, settings.height);
-    picture.width = picture.full_width;
-    picture.height = picture.full_height;
-  }
-  reduce(picture);
-  events_.picture(picture);
 }
 
 }  // namespace crt::studio

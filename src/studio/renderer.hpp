@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "studio/layers.hpp"
 #include "studio/picture_frame.hpp"
 #include "studio/view_options.hpp"
 
@@ -36,6 +37,7 @@ struct View {
   Scene scene;
   PreparedScene prepared;
   std::vector<EntityPlace> places;
+  Camera camera{};  ///< with its lens, also where a mode shows all sharp
   bool camera_is_overridden = false;
   bool reads_time = false;                  ///< as ScriptResult has it
   std::shared_ptr<const Scene> original{};  ///< with the camera and the numbers that it came with
@@ -87,17 +89,25 @@ class Renderer {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// ShownEntities are what some options show of a scene.
+  struct ShownEntities {
+    ViewOptions options;
+    std::vector<Entity> entities;
+  };
 
   void work();
   void render_or_say_why();
   void render_newest();
   bool run_script();
   void take_scene(std::shared_ptr<const Scene> scene, std::vector<EntityPlace> places);
+  Scene shown_scene();
+  PreparedScene prepare_shown(const Scene& scene) const;
   void prepare_scene();
   const std::vector<BoundingBox>& boxes();
   void draw_drafts();
   void render_whole();
-  void draw_draft(int step, bool may_be_cancelled);
+  void draw_draft(const Scene& draft, bool may_be_cancelled);
+  bool takes_longer(int samples) const;
   int first_step() const;
   bool is_old() const;
   bool script_is_old() const;
@@ -106,7 +116,10 @@ class Renderer {
   void say(RenderState::Phase phase, double progress = 0, std::string message = {}) const;
   bool has_taken() const;
   bool may_send() const;
-  void send(PictureKind kind, const Image& image);
+  void send(PictureKind kind, std::shared_ptr<const Image> image);
+  bool is_to_be_shown_again() const;
+  void send(const Layer& layer);
+  void show_again();
 
   const RenderEvents events_;
   const int threads_;
@@ -118,7 +131,8 @@ class Renderer {
   std::optional<Camera> asked_camera_;
   ViewOptions asked_options_;
   std::uint64_t script_changes_ = 0;
-  std::uint64_t changes_ = 0;  ///< of anything
+  std::uint64_t changes_ = 0;          ///< of anything that is rendered
+  std::uint64_t display_changes_ = 0;  ///< of how light is shown, and of nothing else
   bool is_cancelled_ = false;
   bool is_ended_ = false;
   std::uint32_t acknowledged_ = 0;
@@ -128,6 +142,7 @@ class Renderer {
   // What the renderer's thread works on.
   std::uint64_t script_change_ = 0;
   std::uint64_t change_ = 0;
+  std::uint64_t display_change_ = 0;
   Revision revision_;
   std::optional<Camera> camera_;
   ViewOptions options_;
@@ -138,10 +153,12 @@ class Renderer {
   std::optional<Scene> scene_;             ///< with entities under numbers that say their places
   std::vector<EntityPlace> places_;
   bool reads_time_ = false;
+  std::optional<ShownEntities> shown_;
   std::optional<std::vector<BoundingBox>> boxes_;  ///< of the scene, once they are needed
   std::optional<PreparedScene> prepared_;
+  Layers layers_;
   std::uint32_t pictures_ = 0;
-  double pixels_a_second_ = 0;
+  double samples_a_second_ = 0;
   Clock::time_point start_;
 
   std::thread thread_;

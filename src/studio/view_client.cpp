@@ -147,7 +147,9 @@ void ViewClient::pick(const json& message) {
 /// Sends the last whole picture as a file.
 void ViewClient::picture(const json& message) {
   const std::shared_ptr<const Image> image = renderer_.picture();
-  if (!image) throw Error(ErrorCode::invalid_argument, "there is no picture yet");
+  if (!image)
+    throw Error(ErrorCode::invalid_argument,
+                "there is no whole picture of the mode 'rendered' yet");
   const auto format = message.at("format").get<std::string>();
   if (format != "png" && format != "exr")
     throw Error(ErrorCode::invalid_argument, "pictures are png or exr");

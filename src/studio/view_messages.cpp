@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "studio/material_ball.hpp"
+#include "text/format.hpp"
 #include "text/json.hpp"
 
 namespace crt::studio {
@@ -20,17 +21,23 @@ namespace {
 
 constexpr std::array<const char*, 8> channels = {"color", "depth",  "normal",  "id",
                                                  "part",  "albedo", "samples", "error"};
+constexpr std::array<const char*, 3> modes = {"rendered", "material", "clay"};
+constexpr std::array<const char*, 2> tone_maps = {"none", "filmic"};
+/// Exposures go this far, as those of settings do.
+constexpr double most_stops = 100;
 /// Boxes are computed for so many entities, of so many primitives together.
 constexpr std::size_t max_boxes = 2000;
 constexpr std::uint64_t most_primitives = 100'000;
 /// Regions end here. No picture is larger.
 constexpr int largest_side = 65536;
 
-Channel channel_of(const std::string& name) {
-  const auto found = std::find(channels.begin(), channels.end(), name);
-  if (found == channels.end())
-    throw Error(ErrorCode::invalid_argument, "there is no channel '" + name + "'");
-  return static_cast<Channel>(found - channels.begin());
+/// Finds what has a name. `what` says what that is.
+template <class Kind, std::size_t count>
+Kind named(const std::array<const char*, count>& names, const std::string& name, const char* what) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw Error(ErrorCode::invalid_argument, text::format("there is no {} '{}'", what, name));
+  return static_cast<Kind>(found - names.begin());
 }
 
 double finite_number(const json& value) {
@@ -55,6 +62,17 @@ Region region_of(const json& value) {
   return {number("x"), number("y"), number("width"), number("height")};
 }
 
+/// Without any the picture is shown as files are.
+Display display_of(const json& value) {
+  Display display;
+  if (value.contains("exposure"))
+    display.exposure = std::clamp(finite_number(value.at("exposure")), -most_stops, most_stops);
+  if (value.contains("toneMap") && !value.at("toneMap").is_null())
+    display.tone_map =
+        named<ToneMap>(tone_maps, value.at("toneMap").get<std::string>(), "tone map");
+  return display;
+}
+
 json corner_json(const Vec3& corner) {
   json result = json::array();
   for (const double x : {corner.x, corner.y, corner.z})
@@ -72,7 +90,8 @@ void add_box(json& boxes, const Entity& entity) {
 
 ViewOptions view_options_of(const json& value, const TextPlaces& places) {
   ViewOptions options;
-  options.channel = channel_of(value.at("channel").get<std::string>());
+  options.channel = named<Channel>(channels, value.at("channel").get<std::string>(), "channel");
+  options.mode = named<ViewMode>(modes, value.value("mode", modes[0]), "mode");
   for (const json& span : value.at("hidden")) {
     options.hidden.push_back({places.byte_of(text::whole_number<std::uint32_t>(span.at(0))),
                               places.byte_of(text::whole_number<std::uint32_t>(span.at(1)))});
@@ -80,6 +99,7 @@ ViewOptions view_options_of(const json& value, const TextPlaces& places) {
   if (!value.at("section").is_null()) options.section = section_of(value.at("section"));
   if (!value.at("region").is_null()) options.region = region_of(value.at("region"));
   options.t = finite_number(value.at("t"));
+  options.display = display_of(value);
   return options;
 }
 

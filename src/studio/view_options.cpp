@@ -1,7 +1,6 @@
 #include "studio/view_options.hpp"
 
 #include <algorithm>
-#include <crt/material.hpp>
 #include <cstdint>
 #include <iterator>
 #include <utility>
@@ -9,14 +8,6 @@
 namespace crt::studio {
 
 namespace {
-
-/// Cuts have a colour of their own, as in drawings of sections.
-constexpr Color cut_color = {0.85, 0.32, 0.2};
-
-bool is_same_region(const std::optional<Region>& a, const std::optional<Region>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
-}
 
 /// HiddenSpans say at once whether one of many spans encloses another.
 class HiddenSpans {
@@ -46,8 +37,7 @@ class HiddenSpans {
 
 /// Returns the half-space that a section takes away.
 Plane cutter_of(const SectionPlane& section) {
-  static const SharedMaterial material(Material{.color = cut_color});
-  Plane plane{.normal = {0, 0, 0}, .position = {0, 0, 0}, .material = material};
+  Plane plane{.normal = {0, 0, 0}, .position = {0, 0, 0}, .material = cut_material()};
   plane.normal[section.axis] = section.is_flipped ? 1 : -1;
   plane.position[section.axis] = section.offset;
   return plane;
@@ -55,9 +45,23 @@ Plane cutter_of(const SectionPlane& section) {
 
 }  // namespace
 
+bool is_same_region(const std::optional<Region>& a, const std::optional<Region>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
+}
+
 bool differ_in_region_alone(const ViewOptions& a, const ViewOptions& b) {
-  return a.channel == b.channel && a.hidden == b.hidden && a.section == b.section && a.t == b.t &&
+  return a.channel == b.channel && a.t == b.t && show_same_entities(a, b) &&
          !is_same_region(a.region, b.region);
+}
+
+bool differ_in_display_alone(const ViewOptions& a, const ViewOptions& b) {
+  return a.channel == b.channel && a.t == b.t && show_same_entities(a, b) &&
+         is_same_region(a.region, b.region) && a.display != b.display;
+}
+
+bool show_same_entities(const ViewOptions& a, const ViewOptions& b) {
+  return a.mode == b.mode && a.hidden == b.hidden && a.section == b.section;
 }
 
 std::optional<Region> clipped(const std::optional<Region>& region, const Settings& settings) {

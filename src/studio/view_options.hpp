@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "studio/view_mode.hpp"
+
 namespace crt::studio {
 
 /// Says which of a pixel's numbers is shown.
@@ -23,16 +25,35 @@ struct SectionPlane {
   bool operator==(const SectionPlane&) const = default;
 };
 
+/// A Display says how light is shown, beside what the scene's settings say. No render depends on
+/// it.
+struct Display {
+  double exposure = 0;                ///< stops, beside those of the settings
+  std::optional<ToneMap> tone_map{};  ///< in the place of that of the settings
+
+  bool operator==(const Display&) const = default;
+};
+
 struct ViewOptions {
   Channel channel = Channel::color;
+  ViewMode mode = ViewMode::rendered;
   std::vector<TextSpan> hidden{};  ///< statements of the script whose entities are not shown
   std::optional<SectionPlane> section{};
   std::optional<Region> region{};  ///< the part of the picture that is refined
   double t = 0;                    ///< the frame
+  Display display{};
 };
 
-/// Says whether two options differ by nothing but their regions.
+bool is_same_region(const std::optional<Region>& a, const std::optional<Region>& b);
+
+/// Says whether two options differ by their regions, and else by nothing that is rendered.
 bool differ_in_region_alone(const ViewOptions& a, const ViewOptions& b);
+
+/// Says whether two options differ by how they are displayed, and by nothing else.
+bool differ_in_display_alone(const ViewOptions& a, const ViewOptions& b);
+
+/// Says whether visible_scene() and then scene_in_mode() give the same entities by two options.
+bool show_same_entities(const ViewOptions& a, const ViewOptions& b);
 
 /// Returns what of a region lies in a picture, or nothing.
 std::optional<Region> clipped(const std::optional<Region>& region, const Settings& settings);

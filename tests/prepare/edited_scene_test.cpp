@@ -103,3 +103,28 @@ TEST_CASE("an edit that makes the scene wrong is an error, and the earlier one s
   CHECK_THROWS_AS(prepare(scene, before), Error);
   CHECK(same_picture(before, prepare(small_scene())));
 }
+
+TEST_CASE("other materials on the same entities are prepared as if they were the entities' own") {
+  const SharedMaterial red(Material{.color = Color{1, 0, 0}});
+  const SharedMaterial glass(Material{.transparency = 1, .refractive_index = 1.5});
+  const auto scene_of = [](const SharedMaterial& ball, const SharedMaterial& block) {
+    Scene scene = small_scene();
+    const Box box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}, .material = block};
+    scene.entities = {Entity(box) - Entity(Sphere{.center = {1, 1, -1}}).with_material(block),
+                      Sphere{.center = {-2, 0, 0}, .material = ball}};
+    return scene;
+  };
+  const Scene scene = scene_of(red, glass);
+  const PreparedScene before = prepare(scene);
+  PrepareOptions options{.earlier = &before};
+  int calls = 0;
+  options.material = [&](const SharedMaterial& material) {
+    ++calls;
+    return &*material == &*red ? glass : red;
+  };
+  const PreparedScene after = prepare(scene, options);
+  CHECK(after.data().shares_geometry_with(before.data()));
+  CHECK(calls == 2);
+  CHECK(same_picture(after, prepare(scene_of(glass, red))));
+  CHECK(same_picture(prepare(scene, after), before));
+}

@@ -331,6 +331,49 @@ TEST_CASE("a job's picture is whole after the first passes, long before the end"
   CHECK(seen);
 }
 
+TEST_CASE(
+    "a picture that is shown evenly is as noisy everywhere at any time, and the same picture") {
+  Scene description = dark_scene();
+  description.settings.width = 32;
+  description.settings.height = 96;
+  description.settings.target_error = 1e-6;
+  description.settings.min_samples = description.settings.max_samples = 64;
+  // The floor is far from the edges of what lights it: all of its pixels are about as noisy.
+  description.camera = {.position = {0, 0, -3}, .pointing = {0, 0, 0}};
+  description.entities = {Plane{.normal = {0, 0, -1}, .position = {0, 0, 0}}};
+  description.lights = {
+      RectangleLight{.corner = {-20, -20, -5}, .edge_a = {40, 0, 0}, .edge_b = {0, 40, 0}}};
+  const PreparedScene scene = prepare(description);
+  description.settings.min_samples = description.settings.max_samples = 4096;
+  const Image truth = render(prepare(description), {.seed = 1});
+
+  const auto noise_of_rows = [&](const Image& image, int first, int last) {
+    double sum = 0;
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < 32; ++x) sum += std::pow(image.at(x, y).r - truth.at(x, y).r, 2);
+    }
+    return std::sqrt(sum / (32 * (last - first)));
+  };
+  core::Rendering* rendering = nullptr;
+  int looks = 0;
+  RenderOptions options{.threads = 1, .evenly = true};
+  options.progress = [&](double share) {
+    const Image image = rendering->picture();
+    if (share == 0 || image.at(31, 95).a == 0) return true;  // within the first pass
+    ++looks;
+    const double top = noise_of_rows(image, 0, 48);
+    const double bottom = noise_of_rows(image, 48, 96);
+    CHECK(top < 2 * bottom);
+    CHECK(bottom < 2 * top);
+    return true;
+  };
+  core::Rendering watched(scene.data(), options);
+  rendering = &watched;
+  watched.run();
+  CHECK(looks > 50);
+  CHECK(same_pixels(watched.picture(), render(scene)));
+}
+
 TEST_CASE("a transparent background shows as a width where things end, be they black") {
   Scene scene = disc_scene(16);
   scene.background = SolidBackground{{0, 0, 0, 0}};

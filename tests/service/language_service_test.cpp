@@ -337,11 +337,3 @@ TEST_CASE("what a macro of an imported script emits comes from the call") {
   CHECK(result.entity_places[0].statement == call);
   CHECK(result.entity_places[0].origin == call);
 }
-
-TEST_CASE("a derived material that belongs to nothing does no harm to the tree") {
-  const LanguageService service("gold = Material { }\ngold { reflectivity -> 0.4 }\n", "wall.crt");
-  const std::vector<ScriptNode> tree = service.tree();
-  REQUIRE(tree.size() >= 2);
-  CHECK(tree[0].name == "gold");
-  for (const ScriptNode& node : tree) CHECK(node.attributes.empty());
-}

@@ -21,6 +21,16 @@ Scene {
     Box { cornerA -> vec3(0.5, -0.5, -0.5) cornerB -> vec3(1.5, 0.5, 0.5) }
 }
 """
+CAMERA = {
+    "position": [1, 1, -4],
+    "pointing": [0, 0, 0],
+    "fov": 1.0,
+    "roll": 0,
+    "aperture": 0,
+    "focalDistance": 4,
+    "projection": "pinhole",
+    "apertureShape": 0,
+}
 LEFT, RIGHT, CORNER = (28, 32), (66, 32), (2, 2)
 ALL = {"channel": "color", "hidden": [], "section": None, "region": None, "t": 0}
 
@@ -96,6 +106,56 @@ class View(OpenedFolder):
             self.show(channel=channel)
             self.assertEqual(self.client.picture("exr"), output.read_bytes())
 
+    def test_modes_show_another_light_and_the_file_stays_that_of_crt_render(self):
+        output = self.folder / "a.exr"
+        subprocess.run(
+            [COMMAND, "render", "-q", "--reproducible", "-o", output, self.folder / "a.crt"],
+            check=True,
+        )
+        code = self.client.code("script")["text"]
+        lens = SCENE.replace("pointing ->", "lensradius -> 0.25 pointing ->")
+        seen = {self.picture}
+        for mode in ("material", "clay"):
+            with self.subTest(mode):
+                pixels = self.show(mode=mode)
+                seen.add(pixels)
+                red, green, blue, _ = self.at(pixels, LEFT)
+                self.assertEqual(red == green == blue, mode == "clay")
+                self.assertEqual(self.client.picture("exr"), output.read_bytes())
+                self.assertEqual(self.client.code("script")["text"], code)
+                self.assertIn("statement", self.client.pick(*LEFT))
+                # A turned camera is shown by the mode, too.
+                self.client.send(type="camera", camera=CAMERA)
+                seen.add(self.whole()[0])
+                self.client.send(type="camera", camera=None)
+                self.assertEqual(self.whole()[0], pixels)
+                hidden = self.show(mode=mode, hidden=[self.span("ball(-1)")])
+                self.assertEqual(self.at(hidden, LEFT), self.at(hidden, (24, 32)))
+        self.assertEqual(len(seen), 5)
+        # The camera that the page knows keeps its lens, though the mode shows all sharp.
+        self.client.revision += 1
+        self.client.send(
+            type="text",
+            revision=self.client.revision,
+            text=lens,
+            view={**ALL, "mode": "clay"},
+        )
+        scene = self.client.wait("scene", lambda found: found["revision"] == self.client.revision)
+        self.assertEqual(scene["camera"]["lensRadius"], 0.25)
+        self.assertEqual(scene["lights"], 0)
+        self.client.set_text(SCENE)
+        self.whole()
+        self.assertEqual(self.show(mode="rendered"), self.picture)
+
+    def test_a_mode_alone_makes_no_file(self):
+        other = self.connect()
+        other.open("a.crt")
+        other.revision += 1
+        other.send(type="text", revision=1, text=SCENE, view={**ALL, "mode": "clay"})
+        other.wait("finished")
+        other.send(type="picture", format="png")
+        self.assertIn("'rendered'", other.wait("error")["message"])
+
     def test_what_is_hidden_is_gone_from_the_view_alone(self):
         background = self.at(self.picture, CORNER)
         for piece, hidden, kept in (
@@ -151,6 +211,29 @@ class View(OpenedFolder):
         subprocess.run([COMMAND, "render", "--quiet", script, "-o", file], check=True)
         shown = bytes(byte for i, byte in enumerate(pixels) if i % 4 < 3)
         self.assertEqual(shown, file.read_bytes()[-3 * WIDTH * HEIGHT :])
+
+    def test_the_view_has_an_exposure_of_its_own_for_which_nothing_is_rendered(self):
+        script, file = self.folder / "toned.crt", self.folder / "toned.ppm"
+        script.write_text(
+            SCENE.replace("supersampling -> 2", "supersampling -> 2 exposure -> 1.5")
+            .replace("Settings {", 'Settings { tonemap -> "filmic"')
+        )
+        subprocess.run([COMMAND, "render", "--quiet", script, "-o", file], check=True)
+        before = self.client.picture("exr")
+        self.client.send(type="view", view={**ALL, "exposure": 1.5, "toneMap": "filmic"})
+        message = self.client.receive()
+        numbers = struct.unpack("<10I", message[:40])  # a picture, before any state of a render
+        self.assertEqual((numbers[1], numbers[9]), (0x102, HEIGHT))
+        self.client.send(type="acknowledge", picture=numbers[2])
+        shown = bytes(byte for i, byte in enumerate(message[40:]) if i % 4 < 3)
+        self.assertEqual(shown, file.read_bytes()[-3 * WIDTH * HEIGHT :])
+        self.assertEqual(self.client.picture("exr"), before)
+        # It stays when something is rendered, and goes without another render.
+        self.client.send(type="render", action="restart")
+        self.assertEqual(self.whole()[0], message[40:])
+        self.client.wait("state")
+        self.client.send(type="view", view=ALL)
+        self.assertEqual(self.client.receive()[40:], self.picture)
 
     def test_what_the_camera_does_not_see_is_not_picked_and_may_be_cut(self):
         front = "Box { cornerA -> vec3(-9, -9, -2) cornerB -> vec3(9, 9, -1) visible -> false }"
@@ -257,12 +340,16 @@ class View(OpenedFolder):
     def test_wrong_options_are_refused(self):
         for wrong in (
             {"channel": "taste"},
+            {"mode": "wireframe"},
+            {"mode": None},
             {"hidden": [[1]]},
             {"hidden": 7},
             {"section": {"axis": 3, "offset": 0, "isFlipped": False}},
             {"section": {"axis": 0, "offset": "far", "isFlipped": False}},
             {"region": {"x": 0}},
             {"t": None},
+            {"exposure": "bright"},
+            {"toneMap": "sepia"},
         ):
             with self.subTest(wrong):
                 self.client.send(type="view", view={**ALL, **wrong})

@@ -48,6 +48,12 @@ std::vector<Light> lights_of(const Scene& scene, bool emits) {
   return {PointLight{.origin = scene.camera.position}};
 }
 
+/// Returns what takes the place of a material, which is mostly the material itself.
+SharedMaterial stand_in(const SharedMaterial& material, const PrepareOptions& options) {
+  const HostFloatEnvironment host;
+  return options.material ? options.material(material) : material;
+}
+
 Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial> materials) {
   Opacity opacity;
   for (const PreparedMaterial& material : materials)
@@ -101,12 +107,19 @@ struct PreparedData::Geometry {
   }
 };
 
-PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, const Workers& workers,
-                           std::uint64_t max_primitives)
-    : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_),
-      normals_(1, earlier == nullptr ? nullptr : &earlier->normals_),
-      layer_tables_(earlier == nullptr ? nullptr : &earlier->layer_tables_) {
+template <class Pool>
+const Pool* PreparedData::of_earlier(Pool PreparedData::*pool, const PrepareOptions& options) {
+  return options.earlier == nullptr ? nullptr : &(options.earlier->data().*pool);
+}
+
+PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
+                           const Workers& workers)
+    : textures_(scene.settings.gamma, of_earlier(&PreparedData::textures_, options)),
+      normals_(1, of_earlier(&PreparedData::normals_, options)),
+      layer_tables_(of_earlier(&PreparedData::layer_tables_, options)) {
   const auto begin = std::chrono::steady_clock::now();
+  const PreparedData* const earlier =
+      options.earlier == nullptr ? nullptr : &options.earlier->data();
   check_scene(scene);
   scene_ = {.entities = {},
             .lights = {},
@@ -120,7 +133,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
     geometry_ = std::make_shared<const Geometry>(
         scene,
         compile(scene.entities, scene.settings.precision, workers,
-                PrimitiveLimit(scene.settings.precision, max_primitives)),
+                PrimitiveLimit(scene.settings.precision, options.max_primitives)),
         workers);
   }
   accelerator_ = &geometry_->accelerator;
@@ -133,7 +146,8 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   entity_ids_ = geometry_->entity_ids;
   for (const SharedMaterial& material : geometry_->materials) {
     workers.poll();
-    materials_.emplace_back(material, MaterialPools{textures_, normals_, layer_tables_});
+    materials_.emplace_back(stand_in(material, options),
+                            MaterialPools{textures_, normals_, layer_tables_});
   }
   const bool emits = std::any_of(materials_.begin(), materials_.end(),
                                  [](const PreparedMaterial& material) { return material.emits; });
@@ -351,10 +365,7 @@ PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
   const core::FloatEnvironment ieee;
   core::StopCheck stop(options.go_on, "preparing the scene");
   const core::Workers workers(0, options.go_on ? &stop : nullptr);
-  const core::PreparedData* earlier =
-      options.earlier == nullptr ? nullptr : &options.earlier->data();
-  return PreparedScene(
-      std::make_shared<const core::PreparedData>(scene, earlier, workers, options.max_primitives));
+  return PreparedScene(std::make_shared<const core::PreparedData>(scene, options, workers));
 }
 
 PreparedScene prepare(const Scene& scene) {

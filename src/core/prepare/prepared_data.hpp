@@ -24,6 +24,7 @@
 #include "core/shading/environment.hpp"
 #include "core/shading/prepared_material.hpp"
 #include "core/tasks/workers.hpp"
+#include "crt/prepared_scene.hpp"
 #include "crt/scene.hpp"
 #include "crt/stats.hpp"
 
@@ -73,10 +74,10 @@ struct InputTolerance {
 /// threads.
 class PreparedData {
  public:
-  /// Takes over from `earlier`, if there is one, what does not depend on what differs from it. For
-  /// the number of primitives see PrepareOptions.
-  explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr,
-                        const Workers& workers = {}, std::uint64_t max_primitives = 0);
+  /// Takes over from what was prepared earlier, if it was, what does not depend on what differs
+  /// from it. It asks `workers` whether to go on, and not the options.
+  explicit PreparedData(const Scene& scene, const PrepareOptions& options = {},
+                        const Workers& workers = {});
   ~PreparedData();
   PreparedData(const PreparedData&) = delete;
   PreparedData& operator=(const PreparedData&) = delete;
@@ -258,6 +259,8 @@ class PreparedData {
  private:
   struct Geometry;
 
+  template <class Pool>
+  static const Pool* of_earlier(Pool PreparedData::*pool, const PrepareOptions& options);
   static SurfacePoint object_point(const LeafOfHit& in_place, const WorldRay& ray,
                                    const RayHit& hit, bool with_uv);
 

@@ -55,6 +55,8 @@ class Passes {
   /// before run(), which then goes from pass to pass, also where nothing is decided between them.
   /// What has been counted for work that is kept is handed to `settle`, from any thread.
   void make_storable(std::function<void(Workspace&)> settle) { settle_counts_ = std::move(settle); }
+  /// Makes run() go from pass to pass, so that what is shown is even at any time.
+  void go_by_pass() { is_even_ = true; }
   /// Locks all that can be stored, with what goes with it into the canvas and to `settle`.
   std::unique_lock<std::shared_mutex> hold() const { return std::unique_lock(changing_); }
   /// Stores everything that is known of the picture. It must be held, and finish() not called yet.
@@ -121,7 +123,7 @@ class Passes {
     std::int64_t until = 0;
     Ranks ranks;
   };
-  bool goes_by_pass() const { return by_clock_ || is_storable(); }
+  bool goes_by_pass() const { return by_clock_ || is_even_ || is_storable(); }
   bool is_end(std::int64_t count, int eighths) const {
     return count == max_samples_ && eighths == more_eighths_;
   }
@@ -181,6 +183,7 @@ class Passes {
   std::int64_t max_samples_;
   int more_eighths_ = 0;  ///< after the most samples
   bool by_clock_;
+  bool is_even_ = false;
   PassClock& clock_;
   Canvas& canvas_;
   DisplayScale scale_;

@@ -212,6 +212,7 @@ RenderStats Rendering::render_picture() {
   if (by_passes) {
     Passes rendering(frame, canvas_.region(), options_.passes, ask_for_first_hits(options_.aovs),
                      clock, canvas_);
+    if (options_.evenly) rendering.go_by_pass();
     if (options_.checkpoint.empty()) {
       rendering.run(run_tasks);
     } else {

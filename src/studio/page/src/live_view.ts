@@ -9,6 +9,7 @@ export interface ViewHost {
   cameraMoved(camera: Camera): void;
   cameraReset(): void;
   picked(x: number, y: number, focuses: boolean): void;
+  modeChanged(): void;
   /** Takes the part of the picture that is to be refined, or null for all of it. */
   regionChosen(region: Region | null): void;
 }
@@ -235,6 +236,8 @@ export class LiveView {
       this.move(zoom(this.camera, event.key === '[' ? 0.95 : 1 / 0.95));
     } else if (event.key === 'Home') {
       this.host.cameraReset();
+    } else if (event.key === 'm') {
+      this.host.modeChanged();
     } else if (event.key === 'Escape') {
       this.host.regionChosen(null);
     } else {

@@ -9,6 +9,7 @@ import {Connection} from './connection';
 import {makeCopyList} from './copy_code';
 import {button} from './dom';
 import {Editor} from './editor';
+import {makeInsertList} from './insertion';
 import {Layout} from './layout';
 import {LiveView} from './live_view';
 import {Console, Statistics} from './panels';
@@ -24,6 +25,8 @@ import {ViewState} from './view_state';
 
 /** In this interval the server is asked whether another program has written the script. */
 const lookMilliseconds = 1000;
+/** What needs the tree of the newest text looks for it in this interval. */
+const pollMilliseconds = 20;
 
 class Studio {
   private readonly console = new Console();
@@ -45,6 +48,7 @@ class Studio {
   private readonly view = new LiveView({
     cameraMoved: (camera) => this.setCamera(camera),
     cameraReset: () => this.setCamera(null),
+    modeChanged: () => this.viewState.nextMode(),
     picked: (x, y, focuses) => void this.pick(x, y, focuses),
     regionChosen: (region) => {
       this.controls.wantRegion(false);
@@ -92,6 +96,8 @@ class Studio {
   private readonly progress = document.getElementById('progress')!;
   private readonly connection: Connection;
   private revision = 0;
+  /** Is the revision that the tree is of. */
+  private analysed = 0;
   private scene: Scene | null = null;
   private camera: Camera | null = null;
   private stats: Record<string, number> = {};
@@ -148,6 +154,7 @@ class Studio {
     bar.append(name, sign, this.file.list);
     addWriting('Save', 'Write the script to its file (Ctrl+S)', () => this.file.save(false));
     addWriting('Format', 'Lay the script out (Shift+Alt+F)', () => void this.editor.format());
+    bar.append(this.insertList());
     addWriting('Camera to script', 'Write this view into the script', () => this.writeCamera());
     add('Reset view', 'Look through the script’s camera (Home)', () => this.setCamera(null));
     add('PNG', 'Save the picture as PNG', () => this.savePicture('png'));
@@ -173,6 +180,7 @@ class Studio {
       case 'analysis':
         if (message.revision !== this.revision) break;
         this.editor.setTokens(message.tokens);
+        this.analysed = message.revision;
         this.selection.set(message.tree, this.editor.view.state.selection.main.head);
         this.viewState.fit(this.tree.statements());
         break;
@@ -290,8 +298,8 @@ class Studio {
   }
 
   private async ballOf(node: TreeNode): Promise<string | null> {
-    const material = this.selection.materialOf(node);
-    const file = material && await this.ask('preview', material.span[0]);
+    const place = this.selection.materialOf(node);
+    const file = place === null ? null : await this.ask('preview', place);
     return typeof file === 'string' ? `data:image/png;base64,${file}` : null;
   }
 
@@ -351,6 +359,24 @@ class Studio {
     if (changes.length === 0) return;
     this.editor.beginGesture();
     this.editor.edit(changes);
+  }
+
+  private insertList(): HTMLSelectElement {
+    return makeInsertList({
+      text: () => this.editor.text,
+      nodes: async () => {
+        while (this.analysed !== this.revision)
+          await new Promise((resolve) => setTimeout(resolve, pollMilliseconds));
+        return this.selection.nodes;
+      },
+      camera: () => this.camera ?? this.scene?.camera ?? null,
+      insert: (place, text, selected) => {
+        this.editor.beginGesture();
+        this.editor.edit([{from: place, to: place, insert: text}]);
+        this.editor.select(selected, true);
+      },
+      note: (text) => this.console.add(text, 'warning'),
+    });
   }
 
   private copyList(): HTMLSelectElement {

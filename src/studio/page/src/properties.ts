@@ -73,14 +73,16 @@ export class PropertySheet {
       return;
     }
     const heading = document.createElement('h2');
-    heading.textContent = node.name;
+    heading.textContent = node.base === undefined ? node.name :
+      node.base === node.name ? `A copy of ${node.base}` : `${node.name}, a copy of ${node.base}`;
     this.ball.hidden = true;
     const head = document.createElement('header');
     head.append(heading, this.ball);
     const rows: HTMLElement[] = [head];
     const given = new Map(node.attributes.map((attribute) => [attribute.name, attribute]));
+    const inherited = new Map(node.inherited?.map((attribute) => [attribute.name, attribute]));
     for (const description of this.descriptionsOf(node)) {
-      const attribute = given.get(description.name);
+      const attribute = given.get(description.name) ?? inherited.get(description.name);
       const row = document.createElement('div');
       row.className = 'property';
       const label = document.createElement('label');
@@ -91,9 +93,13 @@ export class PropertySheet {
       value.className = 'value';
       if (attribute) {
         value.append(...this.editors(attribute, label));
+        if (!given.has(description.name)) {
+          row.classList.add('inherited');
+          label.title += `, as ${node.base} has it: a change is of this copy alone`;
+        }
       } else {
         row.classList.add('absent');
-        value.append(this.absent(node, description.name, description.default));
+        value.append(this.absent(description.name, description.default));
       }
       row.append(label, value);
       if (description.about !== '') {
@@ -122,7 +128,8 @@ export class PropertySheet {
 
   private write(name: string, text: string): void {
     const attribute = this.current(name);
-    if (!attribute || attribute.literal === 'none') return;
+    if (!attribute) return this.override(name, text);
+    if (attribute.literal === 'none') return;
     this.host.edit([{from: attribute.span[0], to: attribute.span[1], insert: text}]);
     // Until the next tree comes, the places are those that this edit makes.
     const growth = text.length - (attribute.span[1] - attribute.span[0]);
@@ -132,6 +139,29 @@ export class PropertySheet {
       if (other.span[0] > attribute.span[0])
         other.span = [other.span[0] + growth, other.span[1] + growth];
     }
+  }
+
+  /** Gives a derived material a value of its own. */
+  private override(name: string, text: string): void {
+    const inherited = this.node?.inherited?.find((attribute) => attribute.name === name);
+    if (!inherited || inherited.literal === 'none') return;
+    const [begin, end] = this.insert(name, text);
+    // Until the next tree comes, this is what it will have.
+    this.node!.attributes.push({...inherited, nameSpan: [begin, begin + name.length],
+                                span: [end - text.length, end]});
+  }
+
+  /** Writes another attribute behind the last one. Returns its place. */
+  private insert(name: string, text: string): [number, number] {
+    const node = this.node!;
+    const last = node.attributes.at(-1);
+    const place = last ? last.span[1] : node.span[1] - 1;
+    const before = this.host.textOf(node.span).includes('\n') ? '\n    ' : ' ';
+    const written = `${name} -> ${text}`;
+    this.host.edit([{from: place, to: place, insert: before + written}]);
+    node.span = [node.span[0], node.span[1] + before.length + written.length];
+    const begin = place + before.length;
+    return [begin, begin + written.length];
   }
 
   private editors(attribute: Attribute, label: HTMLLabelElement): Element[] {
@@ -165,9 +195,11 @@ export class PropertySheet {
       case 'none': {
         const value = document.createElement('button');
         value.className = 'computed';
-        value.textContent = this.host.textOf(attribute.span).slice(0, 60);
+        const isInherited = attribute.written !== undefined;
+        value.textContent = (attribute.written ?? this.host.textOf(attribute.span)).slice(0, 60);
         value.title = `Not changed here: it is ${attribute.reason ?? 'computed'}`;
-        value.addEventListener('click', () => this.host.select(attribute.span));
+        value.disabled = isInherited;
+        if (!isInherited) value.addEventListener('click', () => this.host.select(attribute.span));
         return [value];
       }
     }
@@ -227,11 +259,15 @@ export class PropertySheet {
       }));
     if (!isColor) return fields;
     const picker = this.input('color', `${attribute.name} as a colour`);
-    const byte = (value: number) => Math.round(255 * Math.max(0, Math.min(1, value)));
+    // Lights are brighter than a screen. What is picked then has the brightness that there is.
+    const brightness = Math.max(1, ...values.slice(0, 3));
+    const byte = (value: number) =>
+      Math.round(255 * Math.max(0, Math.min(1, value / brightness)));
     picker.value = '#' + values.slice(0, 3).map((v) => byte(v).toString(16).padStart(2, '0')).join('');
     picker.addEventListener('input', () => {
       for (let i = 0; i < 3; ++i) {
-        values[i] = Number((parseInt(picker.value.slice(1 + 2 * i, 3 + 2 * i), 16) / 255).toFixed(3));
+        const share = parseInt(picker.value.slice(1 + 2 * i, 3 + 2 * i), 16) / 255;
+        values[i] = Number((brightness * share).toFixed(3));
         fields[i]!.value = numberText(values[i]!);
       }
       write();
@@ -281,7 +317,7 @@ export class PropertySheet {
     });
   }
 
-  private absent(node: TreeNode, name: string, defaultText: string): HTMLElement {
+  private absent(name: string, defaultText: string): HTMLElement {
     const canBeAdded = /^(-?[\d.]+|true|false|(vec3|rgba?)\([-\d., ]+\)|"[^"]*")$/.test(defaultText);
     if (!canBeAdded) {
       const value = document.createElement('span');
@@ -293,13 +329,8 @@ export class PropertySheet {
     button.className = 'default';
     button.textContent = defaultText;
     button.title = `Write ${name} into the script`;
-    button.addEventListener('click', () => {
-      const last = node.attributes.at(-1);
-      const text = `${name} -> ${defaultText}`;
-      const place = last ? last.span[1] : node.span[1] - 1;
-      const isOnLines = this.host.textOf(node.span).includes('\n');
-      this.host.edit([{from: place, to: place, insert: (isOnLines ? '\n    ' : ' ') + text}]);
-    });
+    // The newest tree counts: it may have come without the sheet being made anew.
+    button.addEventListener('click', () => this.insert(name, defaultText));
     return button;
   }
 }

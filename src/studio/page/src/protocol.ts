@@ -11,6 +11,8 @@ export interface Attribute {
   numbers?: number[];
   text?: string;
   reason?: string;
+  /** Has the value of an inherited attribute as it is written. */
+  written?: string;
 }
 
 export interface TreeNode {
@@ -20,6 +22,10 @@ export interface TreeNode {
   nameSpan: Span;
   parent: number;
   attributes: Attribute[];
+  /** Is the variable that a derived material is a copy of. */
+  base?: string;
+  /** Has what a derived material has from there, without places. */
+  inherited?: Attribute[];
 }
 
 export interface AttributeDescription {
@@ -112,10 +118,16 @@ export interface SectionPlane {
 /** What the view shows of the scene, without touching the script. */
 export interface ViewOptions {
   channel: string;
+  /** In what light the scene is shown: rendered, material or clay. */
+  mode: string;
   hidden: Span[];
   section: SectionPlane | null;
   region: Region | null;
   t: number;
+  /** Stops by which the picture is shown brighter than the script says. */
+  exposure: number;
+  /** The tone map in the place of the script's, or null. */
+  toneMap: string | null;
 }
 
 /** A box around an entity. Sides at infinity are null. */

@@ -4,6 +4,10 @@ import type {PropertySheet} from './properties';
 import type {Span, TreeNode} from './protocol';
 import type {Tree} from './tree';
 
+function isMaterial({name, base}: TreeNode): boolean {
+  return name === 'Material' || name === 'PrincipledMaterial' || base !== undefined;
+}
+
 export class Selection {
   nodes: TreeNode[] = [];
   /** Is the piece of the text that is selected in the tree. */
@@ -25,16 +29,18 @@ export class Selection {
     this.show(index);
   }
 
-  /** Finds the Material of an object: itself, one that stands in it, or behind a variable. */
-  materialOf(object: TreeNode): TreeNode | null {
-    if (object.name === 'Material') return object;
+  /** Finds the place of the material of an object: itself, one that stands in it or behind a
+   *  variable, or the variable's name. */
+  materialOf(object: TreeNode): number | null {
+    if (isMaterial(object)) return object.span[0];
     const attribute = object.attributes.find(({name}) => name === 'material');
     if (!attribute) return null;
     const variable = /^the variable '(.*)'$/.exec(attribute.reason ?? '')?.[1];
     const place = this.nodes.find(({kind, name}) =>
       kind === 'assignment' && name === variable)?.span ?? attribute.span;
-    return this.nodes.find(({name, span}) =>
-      name === 'Material' && span[0] >= place[0] && span[1] <= place[1]) ?? null;
+    const material = this.nodes.find((node) =>
+      isMaterial(node) && node.span[0] >= place[0] && node.span[1] <= place[1]);
+    return (material ?? attribute).span[0];
   }
 
   /** Shows the innermost node around a place. */

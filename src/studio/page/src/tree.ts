@@ -22,6 +22,7 @@ export interface Eyes {
 
 export function titleOf(node: TreeNode): string {
   if (node.kind === 'combination') return combinations[node.name] ?? 'combination';
+  if (node.base !== undefined) return `${node.base} { }`;
   if (node.kind === 'placed') return `placed: ${node.name}`;
   return node.name;
 }

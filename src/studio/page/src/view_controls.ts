@@ -1,11 +1,12 @@
 // The bar below the picture: what of the scene the view shows, and how.
 
 import type {Comparison} from './comparison';
+import {DisplayControls} from './display_controls';
 import {button, choice, input, labelled} from './dom';
 import type {Box, Pick, Vector} from './protocol';
 import {SectionControls} from './section_controls';
 import {TimeControls} from './time_controls';
-import type {ViewState} from './view_state';
+import {modes, type ViewState} from './view_state';
 
 const channels = [
   ['color', 'Picture'], ['depth', 'Depth'], ['normal', 'Normals'], ['id', 'Entities'],
@@ -29,6 +30,8 @@ export class ViewControls {
   readonly element = document.createElement('div');
   private readonly section: SectionControls;
   private readonly time: TimeControls;
+  private readonly display: DisplayControls;
+  private readonly mode: HTMLSelectElement;
   private readonly channel: HTMLSelectElement;
   private readonly region: HTMLButtonElement;
   private readonly whole: HTMLButtonElement;
@@ -42,10 +45,13 @@ export class ViewControls {
     this.element.className = 'controls';
     this.element.setAttribute('role', 'toolbar');
     this.element.setAttribute('aria-label', 'What the view shows');
+    this.mode = choice('Mode', modes, (mode) => state.setMode(mode));
+    this.mode.title = 'The scene as it is, its materials in a studio, or its shapes in clay (M)';
     this.channel = choice('Channel', channels, (channel) => state.set({channel}));
     this.section = new SectionControls((section) => state.set({section}), () => host.askBoxes(),
                                        () => host.viewer());
     this.time = new TimeControls((t) => state.set({t}), () => host.countShown());
+    this.display = new DisplayControls((options) => state.set(options));
     this.bounds = input('checkbox', 'Bounds', '', () => host.boundsChanged());
     this.region = button('Region', 'Drag a part of the picture, to refine it alone (Ctrl and drag)',
                          () => this.wantRegion(!this.wantsRegion));
@@ -60,8 +66,9 @@ export class ViewControls {
     const cutters = labelled('Cutters');
     cutters.title = 'Draw the boxes around what is cut away';
     cutters.prepend(this.cutters);
-    this.element.append(this.channel, bounds, cutters, this.section.element, comparison.controls,
-                        this.region, this.whole, this.all, this.time.element, this.place);
+    this.element.append(this.mode, this.channel, bounds, cutters, this.section.element, comparison.controls,
+                        this.region, this.whole, this.all, this.display.element,
+                        this.time.element, this.place);
     this.place.title = 'Where the picture was clicked last';
     this.region.setAttribute('aria-pressed', 'false');
     this.update();
@@ -95,8 +102,10 @@ export class ViewControls {
     this.time.setUsed(readsTime);
   }
 
-  /** Shows the controls that undo what is in effect. */
+  /** Shows the mode and the exposure, and the controls that undo what is in effect. */
   update(): void {
+    this.mode.value = this.state.options.mode;
+    this.display.update(this.state.options);
     this.whole.hidden = this.state.options.region === null;
     this.region.hidden = !this.whole.hidden;
     this.all.hidden = this.state.options.hidden.length === 0;

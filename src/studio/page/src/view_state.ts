@@ -3,15 +3,42 @@
 import type {ChangeDesc} from '@codemirror/state';
 
 import type {Span, ViewOptions} from './protocol';
+import {storage} from './storage';
+
+/** The light in which scenes are shown, by what it is called. The browser keeps the choice. */
+export const modes = [
+  ['rendered', 'Rendered'], ['material', 'Material'], ['clay', 'Clay']] as const;
+const modeKey = 'crt-studio:mode';
+
+function keptMode(): string {
+  const kept = storage.getItem(modeKey);
+  return modes.some(([mode]) => mode === kept) ? kept! : modes[0][0];
+}
+
+/** All of a scene, as files are. */
+const whole = {hidden: [], section: null, region: null, t: 0};
+const plain = {exposure: 0, toneMap: null};
 
 export class ViewState {
-  options: ViewOptions = {channel: 'color', hidden: [], section: null, region: null, t: 0};
+  options: ViewOptions = {
+    channel: 'color', mode: keptMode(), ...whole, ...plain};
 
   constructor(private readonly changed: () => void) {}
 
   set(options: Partial<ViewOptions>): void {
     this.options = {...this.options, ...options};
     this.changed();
+  }
+
+  setMode(mode: string): void {
+    storage.setItem(modeKey, mode);
+    this.set({mode});
+  }
+
+  /** Goes on to the next mode, and after the last to the first. */
+  nextMode(): void {
+    const index = modes.findIndex(([mode]) => mode === this.options.mode);
+    this.setMode(modes[(index + 1) % modes.length]![0]);
   }
 
   isHidden(span: Span): boolean {
@@ -40,6 +67,6 @@ export class ViewState {
 
   /** Shows all of another script. */
   reset(): void {
-    this.options = {...this.options, hidden: [], section: null, region: null, t: 0};
+    this.options = {...this.options, ...whole, ...plain};
   }
 }

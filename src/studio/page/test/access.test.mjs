@@ -108,14 +108,15 @@ withPage('the keyboard reaches everything, in the order in which it is seen', as
     assert.ok(reached.length < 100, reached.join('\n'));
   }
   assert.deepEqual(reached.map((name) => name.replace(/ {2,}/g, ' ')), [
-    'select Script to open', 'button Save', 'button Format', 'button Camera to script',
-    'button Reset view', 'button PNG', 'button EXR', 'select Copy as source code',
-    'select Show a panel', 'button Theme',
+    'select Script to open', 'button Save', 'button Format', 'select Insert into the script',
+    'button Camera to script', 'button Reset view', 'button PNG', 'button EXR',
+    'select Copy as source code', 'select Show a panel', 'button Theme',
     'tab Script', 'textbox Script',
     'tab Live view',
     'application Picture: drag or arrow keys turn, shift moves, wheel or plus and minus go nearer',
-    'select Channel', 'input Bounds', 'input Cutters', 'select Section across', 'button Compare',
-    'button Region',
+    'select Mode', 'select Channel', 'input Bounds', 'input Cutters', 'select Section across',
+    'button Compare', 'button Region',
+    'input Exposure', 'input Exposure in stops', 'select Tone map',
     'tab Console', 'log Console',
     'tab Scene', 'tree Scene',
     'tab Properties', 'input center x', 'input center y', 'input center z',

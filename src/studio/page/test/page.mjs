@@ -44,9 +44,19 @@ export const shown = (page) => page.evaluate(() => studio.view.shown);
 /** Returns what is the same for the same picture alone. */
 export const shownBytes = (page) => page.evaluate(() => digest());
 
+/** Waits until the picture is as is wanted. `waitForFunction` takes any promise for a yes. */
+async function untilBytes(page, isWanted) {
+  const end = Date.now() + 30_000;
+  while (!isWanted(await shownBytes(page))) {
+    assert.ok(Date.now() < end, 'the picture never is as it should be');
+    await page.waitForTimeout(20);
+  }
+}
+
 /** Waits until the picture is as it was. */
-export const showsBytes = (page, bytes) =>
-  page.waitForFunction(async (wanted) => await digest() === wanted, bytes);
+export const showsBytes = (page, bytes) => untilBytes(page, (shown) => shown === bytes);
+/** Waits until the picture is another one. */
+export const showsOther = (page, bytes) => untilBytes(page, (shown) => shown !== bytes);
 
 /** Clicks the picture at a share of its sides. */
 export async function clickPicture(page, x, y, options = {}) {

@@ -79,6 +79,13 @@ await withScript('csg.crt', 'dark', async (page) => {
   await shootPanel(page, 'console', '.console');
 });
 
+await withScript('room.crt', 'dark', async (page) => {
+  for (const mode of ['material', 'clay']) {
+    await rendered(page, () => page.getByLabel('Mode', {exact: true}).selectOption(mode));
+    await shootPanel(page, `mode_${mode}`, '.live');
+  }
+});
+
 await withScript('animation.crt', 'dark', async (page) => {
   await page.getByLabel('Last frame').fill('23');
   await rendered(page, () => page.getByLabel('Frame t', {exact: true}).fill('5'));

@@ -243,7 +243,7 @@ withPage('all that there is to choose from is right', async ({page}) => {
     return objects.find((o) => o.name === object)?.attributes.find((a) => a.name === name);
   };
   for (const path of Object.keys(ranges))
-    assert.match(attributeOf(path)?.type ?? 'none', /^(Float|Integer)$/, path);
+    assert.match(attributeOf(path)?.type ?? 'none', /^(Float( or Pattern)?|Integer)$/, path);
   for (const [path, texts] of Object.entries(choices)) {
     assert.equal(attributeOf(path)?.type, 'String', path);
     if (path !== 'ImageMap.mapping' && path !== 'Background.projection')
