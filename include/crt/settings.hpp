@@ -97,6 +97,9 @@ struct Settings {
   /// Above 0, light that comes by bounces counts as this bright at most. So there are no fireflies,
   /// and nothing is claimed of a picture's accuracy.
   double clamp = 0;
+  /// The finished picture is freed of noise by a filter (see docs/image.md), and so are snapshots.
+  /// Nothing is claimed of its accuracy then.
+  bool denoise = false;
   Cutoff cutoff = Cutoff::background;
   FalloffModel falloff_model = FalloffModel::light;
   AmbientModel ambient_model = AmbientModel::surface;

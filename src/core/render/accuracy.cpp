@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/shading/pixel_range.hpp"
+#include "core/shading/sky.hpp"
 
 namespace crt::core {
 
@@ -31,6 +32,9 @@ struct Brightness {
   double operator()(const PanoramaBackground& background) const {
     const FloatLanes most = pixel_range(background.image->pixels()).most;
     return of({most[0], most[1], most[2]});
+  }
+  double operator()(const SkyBackground& background) const {
+    return std::max(white, Sky(background).brightest());
   }
 };
 

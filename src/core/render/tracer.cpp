@@ -38,6 +38,17 @@ Lanes shares_of_rays(const PathRays& rays, std::size_t group, const PreparedLigh
   return select(own > 0.0, share, lanes_of(1));
 }
 
+/// Adds the sun of a sky to what rays see of it. Surfaces that draw directions, and diffuse ones,
+/// have taken samples of it as of other lights.
+void add_sun(const Sky& sky, const PathRays& rays, PathLight& light) {
+  const RayMask some = light.rays & ~(rays.after_diffuse() | rays.drawn());
+  RayPacket::for_each_group(some, [&](std::size_t group, RayMask lanes) {
+    const VectorLanes sun = sky.sun(rays.batch.lines[group].direction);
+    VectorLanes& colors = light.colors[group];
+    colors = select(lanes_with(lanes), colors + rays.weights[group] * sun, colors);
+  });
+}
+
 /// Adds what the rays see that hit nothing. Only to the camera the background may be transparent.
 /// After a diffuse bounce it is there only as far as it is a light.
 void add_background(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
@@ -67,6 +78,8 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
       channels[3] = seen.alpha[lane];
     });
   });
+  const Sky* const sky = context.data.background().sky();
+  if (sky != nullptr && sky->has_sun()) add_sun(*sky, rays, light);
   clamp_bounced(context, rays, light);
   add(rays.samples, light);
 }
