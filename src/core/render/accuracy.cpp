@@ -73,6 +73,11 @@ void report_grid(const Settings& settings, bool lens, RenderStats& stats) {
   report_unseen(stats);
 }
 
+void forget_accuracy(RenderStats& stats) {
+  stats.half_width_rms = stats.half_width_95 = stats.half_width_max = 0;
+  stats.pixels_unresolved = 0;
+}
+
 double brightest_of(const Background& background) {
   return std::visit(Brightness{}, background);
 }

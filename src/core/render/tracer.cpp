@@ -1,6 +1,7 @@
 #include "core/render/tracer.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "core/render/next_rays.hpp"
@@ -100,11 +101,18 @@ void add_visible_lights(const TraceContext& context, const PathRays& rays, const
 }
 
 /// Writes down what camera rays have met, also where a medium before it lets no light through.
-void report(const PathHits& hits, const Surfaces& surfaces, std::span<FirstHit> first_hits) {
+void report(const PathRays& rays, const PathHits& hits, const Surfaces& surfaces,
+            std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
     first_hits[i] = {};
     if (!hits.hits[i].found()) continue;
-    first_hits[i] = {.normal = surfaces.of(i).normal(), .color = surfaces.of(i).color()};
+    const SurfaceLane surface = surfaces.of(i);
+    const Vec3 way = surface.position() - rays.batch.ray(i).origin;
+    constexpr double least_distance = 0x1p-100;
+    first_hits[i] = {.normal = surface.normal(),
+                     .color = surface.color(),
+                     .cover = 1,
+                     .nearness = 1 / std::max(least_distance, glm::length(way))};
   }
 }
 
@@ -130,7 +138,7 @@ void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samp
     if (context_.frame.shows_lights()) meet_lights(context_, *rays, hits);
     absorb(context_, *rays, hits);
     const Surfaces& surfaces = surfaces_of(context_, *rays, hits, !first_hits.empty(), surfaces_);
-    report(hits, surfaces, std::exchange(first_hits, {}));
+    report(*rays, hits, surfaces, std::exchange(first_hits, {}));
     if (context_.data.features().unseen) enter_unseen_media(*rays, surfaces);
     if (context_.identifies) identify_hits(context_.data, *rays, hits);
     add_background(context_, *rays, hits);
