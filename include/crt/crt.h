@@ -399,8 +399,9 @@ typedef enum crt_background_type {
   CRT_BACKGROUND_GRADIENT,    /**< from `horizon` (level) to `sky` (straight up and down) */
   CRT_BACKGROUND_SPHERICAL,   /**< `image` all around, equirectangular */
   CRT_BACKGROUND_CYLINDRICAL, /**< `image` all around on a cylinder */
-  CRT_BACKGROUND_EQUAL_AREA   /**< `image` all around; the height from the top is (1 - y) / 2 of the
+  CRT_BACKGROUND_EQUAL_AREA,  /**< `image` all around; the height from the top is (1 - y) / 2 of the
                                  unit direction */
+  CRT_BACKGROUND_SKY          /**< a clear sky with its sun, which are lights, too. Since 1.1. */
 } crt_background_type;
 
 /** Describes what a ray that hits nothing sees. */
@@ -415,6 +416,13 @@ typedef struct crt_background {
   double sky_alpha;
   const crt_image* image; /**< its middle column is straight ahead (+z) at angle 0 */
   double angle;           /**< turns the image about y, radians */
+  double sun[3];    /**< sky: the direction to the sun, not 0; default (-1, 1, -1). Since 1.1, as
+                       what follows. */
+  double turbidity; /**< sky: how hazy the air is, in [2, 10]; default 3 */
+  double scale;     /**< sky: factor of all of its light; default 1 */
+  double ground[3]; /**< sky: colour of what is seen below the horizon; default 0.3 */
+  int32_t shines;   /**< sky: whether it lights the scene, or is merely seen; default 1 */
+  int32_t reserved; /**< must be 0 */
 } crt_background;
 
 /** Says what a pixel is the mean of. */
@@ -514,6 +522,10 @@ typedef struct crt_settings {
   /** Above 0, light that comes by bounces counts as this bright at most, and nothing is claimed of
    * the picture's accuracy. Default 0. Since 1.1. */
   double clamp;
+  /** Not 0: the finished picture is freed of noise, and nothing is claimed of its accuracy. Default
+   * 0. Since 1.1. */
+  int32_t denoise;
+  int32_t reserved_4; /**< must be 0 */
 } crt_settings;
 
 /** Fills in a checker. The values that other types need get sensible defaults too. */

@@ -40,7 +40,7 @@ struct Material {
   std::optional<Pattern> bump{};
   /// This is the height of the bumps in scene units.
   double bump_height = 0.1;
-  /// This is the radiance that the surface gives off, >= 0.
+  /// This is the radiance that the surface gives off, >= 0. It is a light for others, too.
   Color emission = {0, 0, 0};
 };
 

@@ -188,5 +188,18 @@ inline constexpr auto table<PanoramaBackground> = Table{
           "turns the panorama about y, in radians"),
 };
 
+template <>
+inline constexpr auto table<SkyBackground> = Table{
+    "SkyBackground",
+    field("sun", &SkyBackground::sun, direction, {}, "the direction to the sun, not 0"),
+    field("turbidity", &SkyBackground::turbidity, between(2, 10), {},
+          "how hazy the air is: 2 is very clear, 6 hazy; 2 to 10"),
+    field("scale", &SkyBackground::scale, factor, {}, "factor of all of its light"),
+    field("ground", &SkyBackground::ground, brightness, {},
+          "the colour of what is seen below the horizon"),
+    field("shines", &SkyBackground::shines, any, {},
+          "whether it lights the scene, or is just seen"),
+};
+
 }  // namespace crt::schema
 /// @endcond

@@ -97,11 +97,15 @@ struct Settings {
   /// Above 0, light that comes by bounces counts as this bright at most. So there are no fireflies,
   /// and nothing is claimed of a picture's accuracy.
   double clamp = 0;
+  /// The finished picture is freed of noise by a filter (see docs/image.md), and so are snapshots.
+  /// Nothing is claimed of its accuracy then.
+  bool denoise = false;
   Cutoff cutoff = Cutoff::background;
   FalloffModel falloff_model = FalloffModel::light;
   AmbientModel ambient_model = AmbientModel::surface;
-  /// A scene without lights is lit from the camera, so that it shows something. With false it is
-  /// black but for mirrors, glass and the background, as it is with compat_2015.
+  /// A scene without lights, and without surfaces that give light off, is lit from the camera, so
+  /// that it shows something. With false it is black but for mirrors, glass and the background, as
+  /// it is with compat_2015.
   bool head_light = true;
   /// Marks pixels in red of which a channel is brighter than 8-bit files can say, as exposed.
   bool show_clip = false;

@@ -167,6 +167,16 @@ FIELDS = {
         ("double sky_alpha", ""),
         ("const crt_image* image", "its middle column is straight ahead (+z) at angle 0"),
         ("double angle", "turns the image about y, radians"),
+        (
+            "double sun[3]",
+            "sky: the direction to the sun, not 0; default (-1, 1, -1). Since 1.1, as what "
+            "follows.",
+        ),
+        ("double turbidity", "sky: how hazy the air is, in [2, 10]; default 3"),
+        ("double scale", "sky: factor of all of its light; default 1"),
+        ("double ground[3]", "sky: colour of what is seen below the horizon; default 0.3"),
+        ("int32_t shines", "sky: whether it lights the scene, or is merely seen; default 1"),
+        ("int32_t reserved", "must be 0"),
     ),
     "crt_settings": (
         ("int32_t width", "pixels, in [1, 65536]; default 640; width * height is at most 2^27"),
@@ -259,6 +269,12 @@ FIELDS = {
             "Above 0, light that comes by bounces counts as this bright at most, and nothing is"
             " claimed of the picture's accuracy. Default 0. Since 1.1.",
         ),
+        (
+            "int32_t denoise",
+            "Not 0: the finished picture is freed of noise, and nothing is claimed of its "
+            "accuracy. Default 0. Since 1.1.",
+        ),
+        ("int32_t reserved_4", "must be 0"),
     ),
     "crt_mesh": (
         ("int32_t reserved", "must be 0"),

@@ -227,12 +227,13 @@ class BackgroundType(enum.IntEnum):
     SPHERICAL = 2
     CYLINDRICAL = 3
     EQUAL_AREA = 4
+    SKY = 5
 
 
 @growable("crt_background", type=BackgroundType)
 class Background(Struct):
-    """A Background is what a ray that hits nothing sees: a colour, Background.gradient(), or
-    Background.panorama(image)."""
+    """A Background is what a ray that hits nothing sees: a colour, Background.gradient(),
+    Background.panorama(image), or Background.sky(), which is a light, too."""
 
     @classmethod
     def gradient(cls, **fields: Any) -> "Background":
@@ -253,6 +254,11 @@ class Background(Struct):
         if equal_area:
             type = BackgroundType.EQUAL_AREA
         return cls(type=type, image=image, **fields)
+
+    @classmethod
+    def sky(cls, **fields: Any) -> "Background":
+        """Is a clear sky whose sun is in the direction `sun`. Both light the scene."""
+        return cls(type=BackgroundType.SKY, **fields)
 
 
 class PixelFilter(enum.IntEnum):

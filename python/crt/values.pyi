@@ -776,7 +776,7 @@ class Camera(_Struct):
         lens_radius: SupportsFloat = ...,
     ) -> None: ...
 
-BackgroundTypeName = Literal["solid", "gradient", "spherical", "cylindrical", "equal_area"]
+BackgroundTypeName = Literal["solid", "gradient", "spherical", "cylindrical", "equal_area", "sky"]
 
 class BackgroundType(enum.IntEnum):
     """Lists the kinds of backgrounds."""
@@ -785,10 +785,11 @@ class BackgroundType(enum.IntEnum):
     SPHERICAL = 2
     CYLINDRICAL = 3
     EQUAL_AREA = 4
+    SKY = 5
 
 class Background(_Struct):
-    """A Background is what a ray that hits nothing sees: a colour, Background.gradient(), or
-    Background.panorama(image).
+    """A Background is what a ray that hits nothing sees: a colour, Background.gradient(),
+    Background.panorama(image), or Background.sky(), which is a light, too.
 
     Its fields are:
     - type (BackgroundType, or its name): a BackgroundType; default BackgroundType.SOLID
@@ -800,6 +801,12 @@ class Background(_Struct):
     - sky_alpha (float)
     - image (Image | None): its middle column is straight ahead (+z) at angle 0
     - angle (float): turns the image about y, radians
+    - sun (Vector): sky: the direction to the sun, not 0; default (-1, 1, -1). Since 1.1, as what
+      follows.
+    - turbidity (float): sky: how hazy the air is, in [2, 10]; default 3
+    - scale (float): sky: factor of all of its light; default 1
+    - ground (Vector): sky: colour of what is seen below the horizon; default 0.3
+    - shines (int): sky: whether it lights the scene, or is merely seen; default 1
     """
     type: BackgroundType | int | BackgroundTypeName
     color: Vector
@@ -810,6 +817,11 @@ class Background(_Struct):
     sky_alpha: float
     image: Image | None
     angle: float
+    sun: Vector
+    turbidity: float
+    scale: float
+    ground: Vector
+    shines: int
     def __init__(
         self,
         *,
@@ -822,6 +834,11 @@ class Background(_Struct):
         sky_alpha: SupportsFloat = ...,
         image: Image | None = ...,
         angle: SupportsFloat = ...,
+        sun: GivenVector = ...,
+        turbidity: SupportsFloat = ...,
+        scale: SupportsFloat = ...,
+        ground: GivenVector = ...,
+        shines: SupportsIndex = ...,
     ) -> None: ...
     def set(
         self,
@@ -835,6 +852,11 @@ class Background(_Struct):
         sky_alpha: SupportsFloat = ...,
         image: Image | None = ...,
         angle: SupportsFloat = ...,
+        sun: GivenVector = ...,
+        turbidity: SupportsFloat = ...,
+        scale: SupportsFloat = ...,
+        ground: GivenVector = ...,
+        shines: SupportsIndex = ...,
     ) -> None: ...
     @classmethod
     def gradient(
@@ -848,6 +870,11 @@ class Background(_Struct):
         sky_alpha: SupportsFloat = ...,
         image: Image | None = ...,
         angle: SupportsFloat = ...,
+        sun: GivenVector = ...,
+        turbidity: SupportsFloat = ...,
+        scale: SupportsFloat = ...,
+        ground: GivenVector = ...,
+        shines: SupportsIndex = ...,
     ) -> Background:
         """Changes from `horizon` to `sky`."""
     @classmethod
@@ -864,6 +891,11 @@ class Background(_Struct):
         sky: GivenVector = ...,
         sky_alpha: SupportsFloat = ...,
         angle: SupportsFloat = ...,
+        sun: GivenVector = ...,
+        turbidity: SupportsFloat = ...,
+        scale: SupportsFloat = ...,
+        ground: GivenVector = ...,
+        shines: SupportsIndex = ...,
     ) -> Background:
         """Shows a crt.Image all around: spherical (equirectangular), unless it is one of the
         others.
@@ -954,6 +986,8 @@ class Settings(_Struct):
       Since 1.1.
     - clamp (float): Above 0, light that comes by bounces counts as this bright at most, and nothing
       is claimed of the picture's accuracy. Default 0. Since 1.1.
+    - denoise (int): Not 0: the finished picture is freed of noise, and nothing is claimed of its
+      accuracy. Default 0. Since 1.1.
     """
     width: int
     height: int
@@ -985,6 +1019,7 @@ class Settings(_Struct):
     cutoff: int
     exposure: float
     clamp: float
+    denoise: int
     def __init__(
         self,
         *,
@@ -1018,6 +1053,7 @@ class Settings(_Struct):
         cutoff: SupportsIndex = ...,
         exposure: SupportsFloat = ...,
         clamp: SupportsFloat = ...,
+        denoise: SupportsIndex = ...,
     ) -> None: ...
     def set(
         self,
@@ -1052,6 +1088,7 @@ class Settings(_Struct):
         cutoff: SupportsIndex = ...,
         exposure: SupportsFloat = ...,
         clamp: SupportsFloat = ...,
+        denoise: SupportsIndex = ...,
     ) -> None: ...
 
 class RenderStats(_Struct):

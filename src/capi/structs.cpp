@@ -129,7 +129,9 @@ std::span<const CField> c_fields<crt_background>() {
   static constexpr std::array fields = {
       CRT_FIELD(S, type),      CRT_FIELD(S, color),         CRT_FIELD(S, alpha),
       CRT_FIELD(S, horizon),   CRT_FIELD(S, horizon_alpha), CRT_FIELD(S, sky),
-      CRT_FIELD(S, sky_alpha), CRT_FIELD(S, image),         CRT_FIELD(S, angle)};
+      CRT_FIELD(S, sky_alpha), CRT_FIELD(S, image),         CRT_FIELD(S, angle),
+      CRT_FIELD(S, sun),       CRT_FIELD(S, turbidity),     CRT_FIELD(S, scale),
+      CRT_FIELD(S, ground),    CRT_FIELD(S, shines),        CRT_FIELD(S, reserved)};
   return fields;
 }
 
@@ -147,7 +149,8 @@ std::span<const CField> c_fields<crt_settings>() {
       CRT_FIELD(S, filter),       CRT_FIELD(S, reserved_2),      CRT_FIELD(S, compat),
       CRT_FIELD(S, reserved_3),   CRT_FIELD(S, ambient_model),   CRT_FIELD(S, no_head_light),
       CRT_FIELD(S, indirect),     CRT_FIELD(S, light_samples),   CRT_FIELD(S, tone_map),
-      CRT_FIELD(S, cutoff),       CRT_FIELD(S, exposure),        CRT_FIELD(S, clamp)};
+      CRT_FIELD(S, cutoff),       CRT_FIELD(S, exposure),        CRT_FIELD(S, clamp),
+      CRT_FIELD(S, denoise),      CRT_FIELD(S, reserved_4)};
   return fields;
 }
 

@@ -182,13 +182,16 @@ crt_background to_c(const Background& background, const crt_image* image) {
   out.struct_size = sizeof out;
   put_fields(out, SolidBackground{});
   put_fields(out, GradientBackground{});
+  put_fields(out, SkyBackground{});
   std::visit([&out](const auto& kind) { put_fields(out, kind); }, background);
   if (const auto* panorama = std::get_if<PanoramaBackground>(&background)) {
     out.type = panorama_type(panorama->projection);
     out.image = image;
+  } else if (std::holds_alternative<SolidBackground>(background)) {
+    out.type = CRT_BACKGROUND_SOLID;
   } else {
-    out.type = std::holds_alternative<SolidBackground>(background) ? CRT_BACKGROUND_SOLID
-                                                                   : CRT_BACKGROUND_GRADIENT;
+    out.type = std::holds_alternative<SkyBackground>(background) ? CRT_BACKGROUND_SKY
+                                                                 : CRT_BACKGROUND_GRADIENT;
   }
   return out;
 }
@@ -213,6 +216,11 @@ Background to_background(const crt_background* background) {
           .image = to_image(given.image, "background.image"),
           .projection = static_cast<PanoramaProjection>(given.type - CRT_BACKGROUND_SPHERICAL),
           .angle = given.angle};
+    case CRT_BACKGROUND_SKY: {
+      SkyBackground sky;
+      take_fields(sky, given, "background");
+      return sky;
+    }
     default:
       reject_value("background.type", given.type, "crt_background_type");
   }

@@ -94,6 +94,7 @@ class Trade {
     ScriptResult result = run_scene(script, options, false, reporter_);
     if (!result.scene) return false;
     scene_ = std::move(*result.scene);
+    scene_.settings.denoise = false;  // What is measured is what rendering brings.
     const Settings& settings = scene_.settings;
     if (!request_.region) {
       parts_ = bands_of(settings.width, settings.height, request_.pixels);

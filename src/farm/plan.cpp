@@ -150,6 +150,11 @@ class Planner {
         manifest, t, [this](const std::string& name) { return files_.open(name); }, go_on);
     const Settings& settings = result.scene->settings;
     validate_size(settings, frame);
+    if (settings.denoise) {
+      throw Error(ErrorCode::unsupported,
+                  "a job cuts pictures into parts, which no filter can be applied to: leave out "
+                  "'denoise'");
+    }
     const bool has_budget = settings.time_budget > 0 && manifest.passes == 0;
     RenderOptions render = options_.render;
     render.passes = manifest.passes;

@@ -253,6 +253,12 @@ ObjectType background() {
       finish_background);
 }
 
+Value finish_sky(SkyBackground sky, const ObjectSite&) {
+  auto background = std::make_shared<const Background>(sky);
+  validate(*background);
+  return background;
+}
+
 }  // namespace
 
 std::span<const ObjectType> object_types() {
@@ -267,6 +273,7 @@ std::span<const ObjectType> object_types() {
     schema::for_each_kind<Light>(
         [&types]<class Kind>(std::type_identity<Kind>) { types.push_back(light<Kind>()); });
     types.push_back(background());
+    types.push_back(object<SkyBackground>("Sky", attributes_of<SkyBackground>(), finish_sky));
     return types;
   }();
   return table;

@@ -67,6 +67,10 @@ std::string background_value(Program& program, const Background& background) {
     // In C the colours have no defaults.
     constexpr Color none{-1, -1, -1, -1};
     writer.add_all(*gradient, {.horizon = none, .sky = none});
+  } else if (const auto* sky = std::get_if<SkyBackground>(&background)) {
+    add_type("sky");
+    writer.add_all(*sky);
+    if (syntax.is_script()) return program.structure("background", "Sky", fields);
   } else {
     const auto& panorama = std::get<PanoramaBackground>(background);
     add_type(schema::choices<PanoramaProjection>.names.at(schema::place_of(panorama.projection)));

@@ -105,7 +105,7 @@ AT(crt_camera, aperture_shape, 88);
 AT(crt_camera, reserved, 92);
 AT(crt_camera, lens_radius, 96);
 
-SIZE(crt_background, 120);
+SIZE(crt_background, 192);
 AT(crt_background, struct_size, 0);
 AT(crt_background, type, 4);
 AT(crt_background, color, 8);
@@ -116,8 +116,14 @@ AT(crt_background, sky, 72);
 AT(crt_background, sky_alpha, 96);
 AT(crt_background, image, 104);
 AT(crt_background, angle, 112);
+AT(crt_background, sun, 120);
+AT(crt_background, turbidity, 144);
+AT(crt_background, scale, 152);
+AT(crt_background, ground, 160);
+AT(crt_background, shines, 184);
+AT(crt_background, reserved, 188);
 
-SIZE(crt_settings, 184);
+SIZE(crt_settings, 192);
 AT(crt_settings, struct_size, 0);
 AT(crt_settings, width, 4);
 AT(crt_settings, height, 8);
@@ -152,6 +158,8 @@ AT(crt_settings, tone_map, 160);
 AT(crt_settings, cutoff, 164);
 AT(crt_settings, exposure, 168);
 AT(crt_settings, clamp, 176);
+AT(crt_settings, denoise, 184);
+AT(crt_settings, reserved_4, 188);
 
 SIZE(crt_script_options, 208);
 AT(crt_script_options, struct_size, 0);
@@ -371,6 +379,7 @@ VALUE(CRT_BACKGROUND_GRADIENT, 1);
 VALUE(CRT_BACKGROUND_SPHERICAL, 2);
 VALUE(CRT_BACKGROUND_CYLINDRICAL, 3);
 VALUE(CRT_BACKGROUND_EQUAL_AREA, 4);
+VALUE(CRT_BACKGROUND_SKY, 5);
 
 VALUE(CRT_FALLOFF_PATH, 0);
 VALUE(CRT_FALLOFF_LIGHT, 1);

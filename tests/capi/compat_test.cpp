@@ -52,6 +52,31 @@ double red_towards(crt_scene* scene, const Numbers& towards) {
 
 }  // namespace
 
+TEST_CASE("a sky is one more type of background, and comes back") {
+  crt_background given;
+  REQUIRE(crt_background_init(&given, sizeof given) == CRT_OK);
+  CHECK(given.turbidity == 3);
+  CHECK(given.shines == 1);
+  given.type = CRT_BACKGROUND_SKY;
+  given.sun[1] = 0.25;
+  given.turbidity = 5;
+  given.ground[2] = 0.75;
+  given.shines = 0;
+  const SceneHandle scene = new_scene();
+  CHECK(crt_scene_set_background(scene.get(), &given) == CRT_OK);
+  crt_background back;
+  back.struct_size = sizeof back;
+  REQUIRE(crt_scene_get_background(scene.get(), &back) == CRT_OK);
+  CHECK(back.type == CRT_BACKGROUND_SKY);
+  CHECK(back.sun[1] == 0.25);
+  CHECK(back.turbidity == 5);
+  CHECK(back.ground[2] == 0.75);
+  CHECK(back.shines == 0);
+  CHECK(back.scale == 1);
+  given.turbidity = 11;
+  CHECK(crt_scene_set_background(scene.get(), &given) == CRT_ERROR_INVALID_ARGUMENT);
+}
+
 TEST_CASE("an equal-area panorama is one more type of background, and comes back") {
   const SceneHandle scene = new_scene();
   const float pixels[] = {0.125, 0, 0, 1, 0.25, 0, 0, 1,

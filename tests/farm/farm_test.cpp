@@ -237,6 +237,11 @@ TEST_CASE("a script of a job reads nothing but what is in the job") {
   CHECK_THROWS_AS(plan_farm(place.script, place.folder / "b", outside), Error);
 }
 
+TEST_CASE("a picture that is denoised is not cut into parts") {
+  const Place place("Settings { denoise -> true }\nScene {}\n");
+  CHECK_THROWS_WITH_AS(plan_farm(place.script, place.job, {}), doctest::Contains("denoise"), Error);
+}
+
 TEST_CASE("the status and the contact sheet show what is done") {
   const Place place;
   plan_farm(place.script, place.job, {.frames = FarmFrames{1, 4}, .tasks = 4});

@@ -48,8 +48,8 @@ scripts=('*.sh' '*.py' '*.rs' '*.cmake' '*.cmake.in' '*CMakeLists.txt' dev .ci/r
 recorded='^tests/abi/(1\.0|older/older_crt\.h)' # kept as it was released
 
 # A folder of src/core uses those before it in this list, and itself.
-layers=(base simd math ray tasks sampling geometry entity csg shading camera compile accel intersect
-  prepare queries render image mesh_files contours left_out)
+layers=(base simd math ray tasks sampling denoise geometry entity csg shading camera compile accel
+  intersect prepare queries render image mesh_files contours left_out)
 check_layers() {
   local position later
   for position in "${!layers[@]}"; do

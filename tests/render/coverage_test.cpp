@@ -154,6 +154,13 @@ PixelClass caustic_pixels() {
   return pixels;
 }
 
+PixelClass daylight_pixels() {
+  Scene scene = floor_and_ball({}, Material{.color = grey(0.6)});
+  scene.lights.clear();
+  scene.background = SkyBackground{.sun = {1, 0.7, -1}};
+  return {"daylight", scene, false};
+}
+
 Image reference_of(Scene scene, int samples) {
   scene.settings.seed = 1000;
   scene.settings.target_error = 1;
@@ -174,7 +181,7 @@ TEST_CASE("in every class of pixels 95 of 100 are as near the truth as they say"
   std::vector<PixelClass> classes{flat_pixels(),        edge_pixels(),       thin_pixels(),
                                   defocused_pixels(),   refractive_pixels(), penumbra_pixels(),
                                   glossy_pixels(),      indirect_pixels(),   sky_pixels(),
-                                  many_lights_pixels(), caustic_pixels()};
+                                  many_lights_pixels(), caustic_pixels(),    daylight_pixels()};
   // What counts is how far off a pixel looks, as it is exposed.
   for (PixelClass pixels : {edge_pixels(), defocused_pixels()}) {
     for (const auto& [exposure, map] : {std::pair{2.0, ToneMap::none}, {-1.0, ToneMap::filmic}}) {

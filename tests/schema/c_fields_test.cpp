@@ -40,6 +40,7 @@ TEST_CASE("the structs of C have the fields of those of C++") {
   CHECK(fields_in<crt::SolidBackground, crt_background>() == 1);
   CHECK(fields_in<crt::GradientBackground, crt_background>() == 2);
   CHECK(fields_in<crt::PanoramaBackground, crt_background>() == 2);
+  CHECK(fields_in<crt::SkyBackground, crt_background>() == 5);
   crt::schema::for_each_kind<crt::Light>(
       []<class Kind>(std::type_identity<Kind>) { CHECK(fields_in<Kind, crt_light>() >= 1); });
   crt::schema::for_each_kind<crt::Pattern>(

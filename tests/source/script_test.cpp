@@ -101,6 +101,25 @@ TEST_CASE("settings, cameras and lights are read back as they were") {
   CHECK(picture_of(read) == picture_of(scene));
 }
 
+TEST_CASE("a sky is read back as it was, with the lights that are there beside it") {
+  Scene scene = scene_of(Sphere{});
+  scene.lights = {PointLight{.origin = {1, 2, -3}}};
+  const SkyBackground sky{
+      .sun = {1, 0.25, 0.5}, .turbidity = 5, .scale = 2, .ground = {0.1, 0.2, 0}, .shines = false};
+  for (const SkyBackground& background : {sky, SkyBackground{}}) {
+    scene.background = background;
+    const Scene read = again(scene);
+    const auto& found = std::get<SkyBackground>(read.background);
+    CHECK(found.sun == background.sun);
+    CHECK(found.turbidity == background.turbidity);
+    CHECK(found.scale == background.scale);
+    CHECK(found.ground == background.ground);
+    CHECK(found.shines == background.shines);
+    CHECK(read.lights.size() == 1);
+    CHECK(picture_of(read) == picture_of(scene));
+  }
+}
+
 TEST_CASE("principled materials are read back as they were, and light that materials give off") {
   const PrincipledMaterial rich = {.color = Pattern(Marble{.scale = 0.3}),
                                    .metallic = Pattern(Checker{.scale = 0.5}),

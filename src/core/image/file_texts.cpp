@@ -36,6 +36,12 @@ bool is_always_written(std::string_view name) {
   return std::ranges::find(names, name) != std::end(names);
 }
 
+/// Returns what a setting is called in files, where the statistics may have its name.
+std::string name_in_files(std::string_view name, std::string_view script_name) {
+  if (name == "cutoff") return "crt:cutoffshows";
+  return name == "denoise" ? "crt:denoised" : text::format("crt:{}", script_name);
+}
+
 /// Says whether a setting has an effect in this picture, and is not the size.
 bool is_in_use(std::string_view name, const Settings& settings) {
   if (name == "width" || name == "height") return false;
@@ -54,10 +60,7 @@ void add_settings(FileTexts& texts, const Settings& settings) {
     if constexpr (!std::is_same_v<Value, std::string>) {
       const bool is_zero_in_c = (value == Value{}) != row.c_name().starts_with("no_");
       if (!is_in_use(row.name, settings) || (is_zero_in_c && !is_always_written(row.name))) return;
-      // That is the name of what the statistics say of it.
-      const bool is_cutoff = row.name == "cutoff";
-      const std::string name =
-          is_cutoff ? "crt:cutoffshows" : text::format("crt:{}", row.script_name());
+      const std::string name = name_in_files(row.name, row.script_name());
       if constexpr (std::is_enum_v<Value>) {
         add(texts, name, std::string(schema::script_name_of(value)));
       } else {
@@ -81,7 +84,7 @@ std::string shortened(std::string text) {
 }
 
 /// Adds how near to the truth a picture is that was rendered pass by pass.
-void add_accuracy(FileTexts& texts, const RenderStats& stats) {
+void add_accuracy(FileTexts& texts, const RenderStats& stats, bool is_denoised) {
   if (stats.passes == 0) return;
   const auto add_numbers = [&](std::string_view name, std::initializer_list<double> numbers) {
     std::string list;
@@ -93,6 +96,7 @@ void add_accuracy(FileTexts& texts, const RenderStats& stats) {
   add(texts, "crt:passes", text::format("{}", stats.passes));
   add_numbers("crt:samples", {static_cast<double>(stats.samples_min), stats.samples_mean,
                               static_cast<double>(stats.samples_max)});
+  if (is_denoised) return;  // The rest is of what was before the filter.
   add_numbers("crt:halfwidth", {stats.half_width_rms, stats.half_width_95, stats.half_width_max});
   add(texts, "crt:unresolvedpixels", text::format("{}", stats.pixels_unresolved));
   add_numbers("crt:unseenshare", {stats.unseen_share});
@@ -121,7 +125,7 @@ FileTexts file_texts(const Image& image, bool reproducible) {
   add(texts, notes_name, settings.notes);
   add(texts, software_name, std::string("CRT ") + version());
   add_settings(texts, settings);
-  add_accuracy(texts, image.stats());
+  add_accuracy(texts, image.stats(), settings.denoise);
   add_counts(texts, image.stats());
   const double seconds = image.stats().prepare_seconds + image.stats().trace_seconds;
   if (!reproducible && seconds > 0)

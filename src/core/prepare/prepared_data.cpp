@@ -39,10 +39,26 @@ void check_scene(const Scene& scene) {
   validate(scene.settings);
 }
 
+bool is_environment(const Light& light) {
+  return std::holds_alternative<EnvironmentLight>(light);
+}
+
+/// Adds a sky that shines to the lights.
+void add_sky(const Background& background, std::vector<Light>& lights) {
+  const auto* given = std::get_if<SkyBackground>(&background);
+  if (given == nullptr || !given->shines) return;
+  if (std::none_of(lights.begin(), lights.end(), is_environment))
+    lights.emplace_back(EnvironmentLight{});
+  const Sky sky(*given);
+  if (sky.has_sun()) lights.emplace_back(sky.sunlight());
+}
+
 /// Returns the lights of a scene, or a head light where nothing gives light off and it is wanted.
 std::vector<Light> lights_of(const Scene& scene, bool emits) {
-  if (!scene.lights.empty() || emits || !scene.settings.head_light || scene.settings.compat != 0)
-    return scene.lights;
+  std::vector<Light> lights = scene.lights;
+  add_sky(scene.background, lights);
+  if (!lights.empty() || emits || !scene.settings.head_light || scene.settings.compat != 0)
+    return lights;
   if (scene.camera.projection == Projection::orthographic)
     return {ParallelLight{.from = scene.camera.position, .pointing = scene.camera.pointing}};
   return {PointLight{.origin = scene.camera.position}};
@@ -156,10 +172,7 @@ PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
   opacity_ = opacity_of(accelerator_->compiled(), materials_);
   background_ =
       std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
-  const auto is_environment = [](const Light& light) {
-    return std::holds_alternative<EnvironmentLight>(light);
-  };
-  if (std::any_of(scene.lights.begin(), scene.lights.end(), is_environment))
+  if (std::any_of(scene_.lights.begin(), scene_.lights.end(), is_environment))
     environment_ = std::make_unique<Environment>(*background_);
   textures_.settle();
   normals_.settle();
@@ -171,7 +184,7 @@ PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
   for (std::string& warning : normals_.warnings()) warnings_.push_back(std::move(warning));
   if (compiled_->leaves.empty() && !has_instances()) {
     warnings_.emplace_back("the scene has no entities: only the background shows");
-  } else if (scene.lights.empty() && !emits) {
+  } else if (scene.lights.empty() && environment_ == nullptr && !emits) {
     warn_of_no_light();
   }
   warn_of_camera();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/shading/pixel_range.hpp"
+#include "core/shading/sky.hpp"
 
 namespace crt::core {
 
@@ -31,6 +32,9 @@ struct Brightness {
   double operator()(const PanoramaBackground& background) const {
     const FloatLanes most = pixel_range(background.image->pixels()).most;
     return of({most[0], most[1], most[2]});
+  }
+  double operator()(const SkyBackground& background) const {
+    return std::max(white, Sky(background).brightest());
   }
 };
 
@@ -67,6 +71,11 @@ void report_grid(const Settings& settings, bool lens, RenderStats& stats) {
   stats.samples_min = stats.samples_max = samples_of_grid(settings, lens);
   stats.samples_mean = static_cast<double>(stats.samples_min);
   report_unseen(stats);
+}
+
+void forget_accuracy(RenderStats& stats) {
+  stats.half_width_rms = stats.half_width_95 = stats.half_width_max = 0;
+  stats.pixels_unresolved = 0;
 }
 
 double brightest_of(const Background& background) {

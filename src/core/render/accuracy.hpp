@@ -16,6 +16,9 @@ std::uint64_t samples_of_grid(const Settings& settings, bool lens);
 /// Reports on pixels that all have the same number of samples.
 void report_grid(const Settings& settings, bool lens, RenderStats& stats);
 
+/// Takes out what is said of how near to the truth a picture is, which holds before a filter alone.
+void forget_accuracy(RenderStats& stats);
+
 /// Returns the brightest channel that a ray which hits nothing can see, or white if that is
 /// brighter.
 double brightest_of(const Background& background);

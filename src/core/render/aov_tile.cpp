@@ -93,8 +93,8 @@ void add_channels(const Aovs& aovs, Image& image) {
   }
 }
 
-std::span<FirstHit> AovTile::first_hits() {
-  return std::span(first_hits_).first(ask_for_first_hits(aovs_) ? pixel_count(tile_) : 0);
+std::span<FirstHit> AovTile::first_hits(bool are_wanted) {
+  return std::span(first_hits_).first(are_wanted ? pixel_count(tile_) : 0);
 }
 
 void AovTile::take(const PixelMeasures& measures, const Region& region) {

@@ -37,8 +37,8 @@ class AovTile {
   AovTile(const Aovs& aovs, const Region& tile) : aovs_(aovs), tile_(tile) {}
 
   /// Returns where the means of the pixels' first hits are to be put (see trace_pixels). It is
-  /// empty if nobody asks for them.
-  std::span<FirstHit> first_hits();
+  /// empty if nobody wants them.
+  std::span<FirstHit> first_hits(bool are_wanted);
 
   /// Sets how many samples each pixel has, if all have as many and their error is not known.
   void set_samples(std::uint32_t count) { measures_.fill({.samples = count, .half_width = 1}); }

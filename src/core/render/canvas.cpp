@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <new>
+
+#include "crt/error.hpp"
+#include "text/format.hpp"
 
 namespace crt::core {
 
@@ -34,6 +38,47 @@ void Canvas::put(std::span<const PlacedPixel> pixels) {
 void Canvas::put_aovs(const AovTile& tile) {
   const std::lock_guard lock(mutex_);
   tile.put(region_, image_);
+}
+
+void Canvas::add_guides() {
+  try {
+    guides_.resize(image_.pixels().size() / 4);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::out_of_memory, text::format("no memory to denoise {} x {} pixels",
+                                                       image_.width(), image_.height()));
+  }
+}
+
+void Canvas::put(std::span<const PlacedGuide> guides) {
+  const std::lock_guard lock(mutex_);
+  for (const PlacedGuide& placed : guides)
+    guides_[index_in(region_, placed.x, placed.y)] = placed.guide;
+}
+
+std::vector<Guide> Canvas::guides() const {
+  const std::lock_guard lock(mutex_);
+  return guides_;
+}
+
+void Canvas::set_guides(std::vector<Guide> guides) {
+  const std::lock_guard lock(mutex_);
+  guides_ = std::move(guides);
+}
+
+void Canvas::denoise(const StripRunner& run) {
+  Image filtered = denoised_copy(run);
+  const std::lock_guard lock(mutex_);
+  image_ = std::move(filtered);
+  guides_ = {};
+}
+
+Image Canvas::denoised_copy(const StripRunner& run) const {
+  std::unique_lock lock(mutex_);
+  Image image = image_;
+  const std::vector<Guide> guides = guides_;
+  lock.unlock();
+  if (!guides.empty()) core::denoise(image.width(), image.height(), image.pixels(), guides, run);
+  return image;
 }
 
 void Canvas::set_stats(const RenderStats& stats) {

@@ -8,7 +8,9 @@
 #include <mutex>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "core/denoise/denoise.hpp"
 #include "core/math/lanes.hpp"
 #include "core/render/aov_tile.hpp"
 #include "crt/render.hpp"
@@ -31,6 +33,12 @@ struct PlacedPixel {
   std::array<float, 4> values{};
 };
 
+struct PlacedGuide {
+  int x = 0;
+  int y = 0;
+  Guide guide;
+};
+
 class Canvas {
  public:
   /// Makes a canvas that is all transparent black.
@@ -49,6 +57,20 @@ class Canvas {
   /// Puts in the AOVs of a tile.
   void put_aovs(const AovTile& tile);
 
+  /// Keeps a guide for each pixel from now on. It must be called before the first tile. Throws
+  /// Error (out_of_memory).
+  void add_guides();
+  bool has_guides() const { return !guides_.empty(); }
+  /// Puts in guides of pixels of the region.
+  void put(std::span<const PlacedGuide> guides);
+  /// Returns and takes all guides, to keep them elsewhere for a while.
+  std::vector<Guide> guides() const;
+  void set_guides(std::vector<Guide> guides);
+  /// Frees the picture of noise. All tiles must be in, and the guides go.
+  void denoise(const StripRunner& run);
+  /// Returns the picture with what is done at the time, freed of noise if there are guides.
+  Image denoised_copy(const StripRunner& run) const;
+
   void set_stats(const RenderStats& stats);
 
   /// Returns the picture with what is done at the time.
@@ -60,6 +82,7 @@ class Canvas {
  private:
   Region region_;
   Image image_;
+  std::vector<Guide> guides_;
   mutable std::mutex mutex_;
 };
 

@@ -19,7 +19,7 @@ namespace crt::core {
 
 namespace {
 
-constexpr std::string_view magic = "CRT checkpoint 5 of " CRT_VERSION "\n";
+constexpr std::string_view magic = "CRT checkpoint 6 of " CRT_VERSION "\n";
 
 // These are in seconds. The first checkpoint is to be there after 10, with the time that writing a
 // large one takes. Later on writing is to take a small part of the time, whatever the size.
@@ -39,7 +39,7 @@ void add(ByteHash& hash, const T&... numbers) {
 void add_settings(ByteHash& hash, const Settings& s) {
   add(hash, s.width, s.height, s.recursion_depth, s.min_weight, s.gamma, s.seed, s.precision,
       s.target_error, s.min_samples, s.max_samples, s.filter, s.filter_width, s.exposure,
-      s.tone_map, s.light_samples, s.indirect, s.clamp, s.cutoff);
+      s.tone_map, s.light_samples, s.indirect, s.clamp, s.cutoff, s.denoise);
   if (s.compat != 0) add(hash, s.compat);
 }
 
@@ -119,6 +119,7 @@ void Checkpoint::write() const {
   // moment.
   const auto hold = passes_.hold();
   const Image picture = canvas_.copy();
+  const std::vector<Guide> guides = canvas_.guides();
   const WorkspacePool::Counts counts = pool_.settled();
   write_state_file(path_, [&](StateWriter& out) {
     out.put_all(std::span<const char>(magic));
@@ -127,6 +128,7 @@ void Checkpoint::write() const {
     out.put(counts.cutoff.units);
     out.put(counts.cutoff.most);
     out.put_all(picture.pixels());
+    out.put_all(std::as_bytes(std::span(guides)));
     passes_.store(out);
   });
 }
@@ -184,9 +186,12 @@ void Checkpoint::read() {
   counts.cutoff.most = in.get<double>();
   std::vector<float> pixels(4 * pixel_count(canvas_.region()));
   in.get_all(std::span<float>(pixels));
+  std::vector<Guide> guides = canvas_.guides();
+  in.get_all(std::as_writable_bytes(std::span(guides)));
   passes_.restore(in);
   if (!in.at_end()) in.fail();
   canvas_.put(canvas_.region(), pixels);
+  canvas_.set_guides(std::move(guides));
   pool_.set_total(counts);
 }
 

@@ -14,14 +14,18 @@ namespace crt::core {
 struct FirstHit {
   Vec3 normal{0, 0, 0};  ///< world, unit length, turned to the viewer and tilted by bumps
   Rgb color{0, 0, 0};    ///< the material's
+  double cover = 0;      ///< 1 where there is a surface
+  double nearness = 0;   ///< 1 / the distance from the ray's origin, in the world
 
   void add(const FirstHit& other) {
     normal += other.normal;
     color += other.color;
+    cover += other.cover;
+    nearness += other.nearness;
   }
   void divide(std::int64_t count) {
     const auto divisor = static_cast<double>(count);
-    *this = {normal / divisor, color / divisor};
+    *this = {normal / divisor, color / divisor, cover / divisor, nearness / divisor};
   }
 };
 

@@ -251,6 +251,7 @@ std::size_t Passes::index_of(const Place& place) const {
 
 void Passes::show(const Region& tile, std::span<const PixelPlace> pixels,
                   const SampleCount& count) {
+  if (canvas_.has_guides()) show_guides(pixels, count);
   const bool is_whole = pixels.size() == pixel_count(tile) && is_in(region_, tile.x, tile.y) &&
                         is_in(region_, tile.x + tile.width - 1, tile.y + tile.height - 1);
   if (!is_whole) {
@@ -279,6 +280,20 @@ void Passes::show_some(std::span<const PixelPlace> pixels, const SampleCount& co
     std::memcpy(out.values.data(), &mean, sizeof mean);
   }
   canvas_.put(std::span(shown).first(shown_count));
+}
+
+void Passes::show_guides(std::span<const PixelPlace> pixels, const SampleCount& count) {
+  std::array<PlacedGuide, Tiles::most_pixels> shown;
+  std::size_t shown_count = 0;
+  for (const PixelPlace& pixel : pixels) {
+    if (pixel.first_hits == nullptr) continue;  // in the margin
+    FirstHit hit = *pixel.first_hits;
+    hit.divide(count.samples());
+    shown[shown_count++] = {
+        pixel.x, pixel.y,
+        guide_of(hit, pixel.samples->variance(count), PixelSamples::blocks(count))};
+  }
+  canvas_.put(std::span<const PlacedGuide>(shown).first(shown_count));
 }
 
 void Passes::exchange_statistics(const TaskRunner& run_tasks) {

@@ -139,6 +139,7 @@ class Passes {
   /// Retires pixels inside a tile that are good enough, and keeps the samples of the others.
   void decide_inside(Tile& tile, std::int64_t count, Workspace& work);
   void show(const Region& tile, std::span<const PixelPlace> pixels, const SampleCount& count);
+  void show_guides(std::span<const PixelPlace> pixels, const SampleCount& count);
   void show_some(std::span<const PixelPlace> pixels, const SampleCount& count);
   /// Does what follows when all active pixels have got another sample.
   void decide(const TaskRunner& run_tasks);

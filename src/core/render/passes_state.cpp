@@ -54,6 +54,8 @@ void Passes::store(StateWriter& out) const {
     for (const Vec3& v : {hit.normal, hit.color}) {
       for (int axis = 0; axis < 3; ++axis) out.put(v[axis]);
     }
+    out.put(hit.cover);
+    out.put(hit.nearness);
   }
   for (const Tile& tile : tiles_) store_tile(tile, out);
 }
@@ -77,6 +79,8 @@ void Passes::restore(StateReader& in) {
     for (Vec3* v : {&hit.normal, &hit.color}) {
       for (int axis = 0; axis < 3; ++axis) (*v)[axis] = in.get<double>();
     }
+    hit.cover = in.get<double>();
+    hit.nearness = in.get<double>();
   }
   for (Tile& tile : tiles_) restore_tile(tile, in);
   std::erase_if(active_, [&](std::size_t index) { return tiles_[index].places.empty(); });

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/math/random.hpp"
+#include "core/render/canvas.hpp"
 #include "core/render/packet_tracer.hpp"
 #include "core/render/tiles.hpp"
 
@@ -140,13 +141,24 @@ class GridRays {
   LensPointLanes lens_points_of_rays_;
 };
 
+/// Returns how many samples of a pixel a block has, so that there are about eight.
+std::uint64_t block_size(std::uint64_t samples) {
+  constexpr std::uint64_t blocks = 8;
+  return std::max<std::uint64_t>(1, samples / blocks);
+}
+
 /// GridSums adds up samples. A pixel's sum is that of its subpixels' sums over the lens, in their
 /// order.
 class GridSums {
  public:
-  /// `first_hit_sums` may be empty.
-  GridSums(int lens_points, std::span<PixelMean> sums, std::span<FirstHit> first_hit_sums)
-      : lens_points_(lens_points), sums_(sums), first_hit_sums_(first_hit_sums) {}
+  /// `first_hit_sums` and `noise` may be empty.
+  GridSums(int lens_points, std::uint64_t samples_per_pixel, std::span<PixelMean> sums,
+           std::span<FirstHit> first_hit_sums, std::span<PixelNoise> noise)
+      : lens_points_(lens_points),
+        block_size_(static_cast<std::uint32_t>(block_size(samples_per_pixel))),
+        sums_(sums),
+        first_hit_sums_(first_hit_sums),
+        noise_(noise) {}
 
   void add(const PacketTracer::Traced& traced, const GridRays::Pixels& pixels) {
     for (std::size_t i = 0; i < traced.samples.size(); ++i) {
@@ -164,26 +176,66 @@ class GridSums {
     for (std::size_t i = 0; i < traced.first_hits.size(); ++i) {
       first_hit_sums_[pixels[i]].add(traced.first_hits[i]);
     }
+    if (noise_.empty()) return;
+    for (std::size_t i = 0; i < traced.samples.size(); ++i) {
+      PixelNoise& noise = noise_[pixels[i]];
+      noise.block += traced.samples[i].channels;
+      if (++noise.samples % block_size_ != 0) continue;
+      noise.sum += noise.block;
+      noise.squares += noise.block * noise.block;
+      noise.block = Lanes{};
+    }
   }
 
  private:
   int lens_points_;
+  std::uint32_t block_size_;
   std::span<PixelMean> sums_;
   std::span<FirstHit> first_hit_sums_;
+  std::span<PixelNoise> noise_;
   PixelMean lens_sum_{};
   int lens_point_ = 0;
 };
 
 }  // namespace
 
+Guide guide_of(const FirstHit& hit, const Lanes& variances, std::size_t estimates) {
+  Guide guide{.cover = static_cast<float>(hit.cover),
+              .nearness = static_cast<float>(hit.nearness),
+              .estimates = static_cast<float>(estimates)};
+  const FloatLanes floats = finite_floats(variances);
+  for (int i = 0; i < 3; ++i) {
+    const auto channel = static_cast<std::size_t>(i);
+    guide.albedo[channel] = finite_float(hit.color[i]);
+    guide.normal[channel] = finite_float(hit.normal[i]);
+    guide.variance[channel] = floats[channel];
+  }
+  return guide;
+}
+
+Guide guide_of(const FirstHit& hit, const PixelNoise& noise, std::uint64_t samples) {
+  const std::uint64_t size = block_size(samples);
+  const auto blocks = static_cast<double>(samples / size);
+  const double divisor =
+      std::max(1.0, blocks - 1) * static_cast<double>(size) * static_cast<double>(samples);
+  const Lanes squares = noise.squares - noise.sum * noise.sum / blocks;
+  // Where all blocks are alike, rounding leaves some of their squares.
+  constexpr double rounding = 0x1p-40;
+  const Lanes variances = select(squares > rounding * noise.squares, squares / divisor, Lanes{});
+  return guide_of(hit, variances, static_cast<std::size_t>(blocks));
+}
+
 void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer,
-                  std::span<PixelMean> pixels, std::span<FirstHit> first_hits, RenderStats& stats) {
+                  std::span<PixelMean> pixels, std::span<FirstHit> first_hits,
+                  std::span<PixelNoise> noise, RenderStats& stats) {
   const bool lens = frame.features().lens;
   const int lens_points = lens ? frame.settings().dof_samples : 1;
+  const std::uint64_t samples_per_pixel =
+      frame.subpixel_count() * static_cast<std::uint64_t>(lens_points);
   std::fill(pixels.begin(), pixels.end(), PixelMean{});
   PacketTracer packets(frame, tracer, !first_hits.empty());
   GridRays rays(frame, region, lens_points);
-  GridSums sums(lens_points, pixels, first_hits);
+  GridSums sums(lens_points, samples_per_pixel, pixels, first_hits, noise);
   RayPlaces places;
   GridRays::Pixels of_pixels;
   const auto next = [&] {
@@ -191,8 +243,6 @@ void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer,
   };
   while (const std::size_t count = next()) sums.add(packets.trace(places, count), of_pixels);
 
-  const std::uint64_t samples_per_pixel =
-      frame.subpixel_count() * static_cast<std::uint64_t>(lens_points);
   if (samples_per_pixel > 1) {
     const auto divisor = static_cast<double>(samples_per_pixel);
     for (PixelMean& pixel : pixels) pixel = {pixel.channels / divisor, pixel.dropped / divisor};

@@ -81,18 +81,20 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
              .poll = [this] { progress_.poll_in_ray(); }},
       seconds_(std::move(seconds)) {
   if (is_any(options_.aovs)) canvas_.add_channels(options_.aovs);
+  if (settings_.denoise) canvas_.add_guides();
   allowed_threads(options_.threads);  // throws for an invalid number
   check_passes(options_, settings_, canvas_.region());
 }
 
 void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& work) {
   Tracer tracer(frame, work, progress_);
-  if (!is_any(options_.aovs)) {
+  if (!is_any(options_.aovs) && !settings_.denoise) {
     trace_tile(frame, tile, tracer, {}, work);
     return;
   }
   AovTile aovs(options_.aovs, tile);
-  trace_tile(frame, tile, tracer, aovs.first_hits(), work);
+  trace_tile(frame, tile, tracer, aovs.first_hits(keeps_first_hits()), work);
+  if (!is_any(options_.aovs)) return;
   aovs.set_samples(static_cast<std::uint32_t>(samples_of_grid(settings_, frame.features().lens)));
   aovs.look(frame.camera(), tracer);
   canvas_.put_aovs(aovs);
@@ -102,7 +104,9 @@ void Rendering::trace_tile(const Frame& frame, const Region& tile, Tracer& trace
                            std::span<FirstHit> first_hits, Workspace& work) {
   std::array<PixelMean, Tiles::most_pixels> storage;
   const std::span<PixelMean> means = std::span(storage).first(pixel_count(tile));
-  trace_pixels(frame, tile, tracer, means, first_hits, work.stats);
+  std::vector<PixelNoise> noise(settings_.denoise ? means.size() : 0);
+  trace_pixels(frame, tile, tracer, means, first_hits, noise, work.stats);
+  if (settings_.denoise) put_guides(frame, tile, first_hits, noise);
   std::array<float, pixel_channels * Tiles::most_pixels> pixels;
   float* next = pixels.data();
   for (const PixelMean& mean : means) {
@@ -112,6 +116,20 @@ void Rendering::trace_tile(const Frame& frame, const Region& tile, Tracer& trace
     if (mean.dropped != 0) work.cutoff.add(mean.dropped);
   }
   canvas_.put(tile, std::span(pixels.data(), next));
+}
+
+void Rendering::put_guides(const Frame& frame, const Region& tile,
+                           std::span<const FirstHit> first_hits,
+                           std::span<const PixelNoise> noise) {
+  const std::uint64_t samples = samples_of_grid(settings_, frame.features().lens);
+  std::vector<PlacedGuide> guides;
+  guides.reserve(noise.size());
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    const auto place = static_cast<int>(i);
+    guides.push_back({tile.x + place % tile.width, tile.y + place / tile.width,
+                      guide_of(first_hits[i], noise[i], samples)});
+  }
+  canvas_.put(std::span<const PlacedGuide>(guides));
 }
 
 void Rendering::run(std::size_t count, WorkspacePool& pool,
@@ -159,7 +177,7 @@ void Rendering::put_aovs(const Frame& frame, const TaskRunner& run_tasks) {
 void Rendering::run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
                                     const TaskRunner& run_tasks, double begin) {
   const std::uint64_t picture =
-      fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs), progress_, rules_);
+      fingerprint(frame, canvas_.region(), keeps_first_hits(), progress_, rules_);
   Checkpoint checkpoint(options_.checkpoint, picture, passes, canvas_, pool, seconds_, begin);
   checkpoint.take_up();
   const TaskRunner run_and_tell = [&](std::size_t count, double share_after, const auto& task) {
@@ -210,8 +228,7 @@ RenderStats Rendering::render_picture() {
   int passes = 0;
   const bool by_passes = asks_for_passes(settings_, options_.passes);
   if (by_passes) {
-    Passes rendering(frame, canvas_.region(), options_.passes, ask_for_first_hits(options_.aovs),
-                     clock, canvas_);
+    Passes rendering(frame, canvas_.region(), options_.passes, keeps_first_hits(), clock, canvas_);
     if (options_.evenly) rendering.go_by_pass();
     if (options_.checkpoint.empty()) {
       rendering.run(run_tasks);
@@ -220,6 +237,7 @@ RenderStats Rendering::render_picture() {
     }
     rendering.finish(run_tasks);
     measures_ = rendering.take_measures();
+    if (settings_.denoise) std::ranges::fill(measures_.half_widths, 1.0f);  // not known
     passes = rendering.passes();
     if (is_any(options_.aovs)) put_aovs(frame, run_tasks);
   } else {
@@ -234,8 +252,32 @@ RenderStats Rendering::render_picture() {
     report_grid(settings_, frame.features().lens, stats);
   }
   report_cutoff(counts.cutoff, data_.scene().background, stats);
+  if (settings_.denoise) {
+    canvas_.denoise(strip_runner());
+    forget_accuracy(stats);
+  }
   progress_.finish();
   return stats;
+}
+
+Image Rendering::picture() const {
+  return canvas_.denoised_copy(
+      [this](std::size_t count, const std::function<void(std::size_t)>& task) {
+        run_tasks(count, options_.threads, [&task](std::size_t index) {
+          const FloatEnvironment ieee;
+          task(index);
+        });
+      });
+}
+
+StripRunner Rendering::strip_runner() {
+  return [this](std::size_t count, const std::function<void(std::size_t)>& task) {
+    run_tasks(count, options_.threads, [&](std::size_t index) {
+      const FloatEnvironment ieee;
+      progress_.poll();
+      task(index);
+    });
+  };
 }
 
 double Rendering::steady_seconds() {
@@ -268,7 +310,12 @@ void Rendering::report(const RenderStats& stats) const {
   log(LogLevel::info,
       text::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
                    stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
-  if (stats.passes > 0) {
+  if (stats.passes > 0 && settings_.denoise) {
+    log(LogLevel::info,
+        text::format("{} passes: {} to {} samples a pixel, {:.1f} in the mean; denoised, so that "
+                     "nothing is claimed of the accuracy",
+                     stats.passes, stats.samples_min, stats.samples_max, stats.samples_mean));
+  } else if (stats.passes > 0) {
     constexpr double steps = 255;
     log(LogLevel::info,
         text::format(

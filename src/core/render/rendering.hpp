@@ -34,7 +34,7 @@ class Rendering {
   // These may be called from any thread, before, during and after run():
 
   /// Returns the picture with what is done at the time.
-  Image picture() const { return canvas_.copy(); }
+  Image picture() const;
   double share_done() const { return progress_.share(); }
   void cancel() { progress_.stop(); }
 
@@ -60,6 +60,12 @@ class Rendering {
   /// is empty.
   void trace_tile(const Frame& frame, const Region& tile, Tracer& tracer,
                   std::span<FirstHit> first_hits, Workspace& work);
+  void put_guides(const Frame& frame, const Region& tile, std::span<const FirstHit> first_hits,
+                  std::span<const PixelNoise> noise);
+  /// Returns whether somebody asks how the surfaces look that samples meet first.
+  bool keeps_first_hits() const { return settings_.denoise || ask_for_first_hits(options_.aovs); }
+  /// Returns what filters the picture at the end, until somebody cancels.
+  StripRunner strip_runner();
   void report(const RenderStats& stats) const;
   void log(LogLevel level, const std::string& line) const;
 

@@ -1,6 +1,7 @@
 #include "core/render/tracer.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "core/base/invalid_index.hpp"
@@ -28,6 +29,17 @@ void clamp_bounced(const TraceContext& context, const PathRays& rays, PathLight&
                               VectorLanes& colors = light.colors[group];
                               colors = select(lanes_with(lanes), min(colors, most), colors);
                             });
+}
+
+/// Adds the sun of a sky to what rays see of it. Surfaces that draw directions, and diffuse ones,
+/// have taken samples of it as of other lights.
+void add_sun(const Sky& sky, const PathRays& rays, PathLight& light) {
+  const RayMask some = light.rays & ~(rays.after_diffuse() | rays.drawn());
+  RayPacket::for_each_group(some, [&](std::size_t group, RayMask lanes) {
+    const VectorLanes sun = sky.sun(rays.batch.lines[group].direction);
+    VectorLanes& colors = light.colors[group];
+    colors = select(lanes_with(lanes), colors + rays.weights[group] * sun, colors);
+  });
 }
 
 /// Adds what the rays see that hit nothing. Only to the camera the background may be transparent.
@@ -60,6 +72,8 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
       channels[3] = seen.alpha[lane];
     });
   });
+  const Sky* const sky = context.data.background().sky();
+  if (sky != nullptr && sky->has_sun()) add_sun(*sky, rays, light);
   clamp_bounced(context, rays, light);
   add(rays.samples, light);
 }
@@ -82,11 +96,18 @@ void add_visible_lights(const TraceContext& context, const PathRays& rays, const
 }
 
 /// Writes down what camera rays have met, also where a medium before it lets no light through.
-void report(const PathHits& hits, const Surfaces& surfaces, std::span<FirstHit> first_hits) {
+void report(const PathRays& rays, const PathHits& hits, const Surfaces& surfaces,
+            std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
     first_hits[i] = {};
     if (!hits.hits[i].found()) continue;
-    first_hits[i] = {.normal = surfaces.of(i).normal(), .color = surfaces.of(i).color()};
+    const SurfaceLane surface = surfaces.of(i);
+    const Vec3 way = surface.position() - rays.batch.ray(i).origin;
+    constexpr double least_distance = 0x1p-100;
+    first_hits[i] = {.normal = surface.normal(),
+                     .color = surface.color(),
+                     .cover = 1,
+                     .nearness = 1 / std::max(least_distance, glm::length(way))};
   }
 }
 
@@ -112,7 +133,7 @@ void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samp
     if (context_.frame.shows_lights()) meet_lights(context_, *rays, hits);
     absorb(context_, *rays, hits);
     const Surfaces& surfaces = surfaces_of(context_, *rays, hits, !first_hits.empty(), surfaces_);
-    report(hits, surfaces, std::exchange(first_hits, {}));
+    report(*rays, hits, surfaces, std::exchange(first_hits, {}));
     if (context_.data.features().unseen) enter_unseen_media(*rays, surfaces);
     if (context_.identifies) identify_hits(context_.data, *rays, hits);
     add_background(context_, *rays, hits);

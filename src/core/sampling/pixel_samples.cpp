@@ -93,6 +93,18 @@ Lanes PixelSamples::mean(const SampleCount& count) const {
   return count.samples_.divide(sum);
 }
 
+Lanes PixelSamples::variance(const SampleCount& count) const {
+  Lanes sum{};
+  for (std::size_t b = 0; b < count.blocks_; ++b) sum += to_doubles(blocks_[b]);
+  const Lanes middle = count.full_blocks_.divide(sum);
+  Lanes squares{};
+  for (std::size_t b = 0; b < count.blocks_; ++b) {
+    const Lanes distance = to_doubles(blocks_[b]) - middle;
+    squares += distance * distance;
+  }
+  return squares / count.variance_divisor_;
+}
+
 template <class Self, class Use>
 void PixelSamples::for_each_number(Self& self, const Use& use) {
   for (auto& block : self.blocks_) use(block);

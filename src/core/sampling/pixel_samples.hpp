@@ -94,6 +94,8 @@ class SampleCount {
   /// them. So what only the neighbours have seen counts as much as what the pixel itself has seen.
   explicit SampleCount(std::int64_t count, bool with_lens = false);
 
+  std::int64_t samples() const { return samples_.number(); }
+
  private:
   friend class PixelSamples;
 
@@ -105,6 +107,7 @@ class SampleCount {
         : number_(static_cast<double>(number)),
           reciprocal_(std::has_single_bit(static_cast<std::uint64_t>(number)) ? 1 / number_ : 0) {}
 
+    std::int64_t number() const { return static_cast<std::int64_t>(number_); }
     Lanes divide(const Lanes& values) const {
       return reciprocal_ != 0 ? values * reciprocal_ : values / number_;
     }
@@ -168,6 +171,11 @@ class PixelSamples {
             statistics.greatest_identity != identity_;
     has_statistics_ = true;
   }
+
+  /// Returns the variances of the means, as far as the blocks show them. There are as many
+  /// independent estimates as blocks() says, and of one the variance counts as 0.
+  Lanes variance(const SampleCount& count) const;
+  static std::size_t blocks(const SampleCount& count) { return count.blocks_; }
 
   /// Says that there may be something in the pixel that the first samples can miss.
   void expect_subpixel_objects() { expects_subpixel_objects_ = true; }

@@ -14,6 +14,7 @@ constexpr double full_turn = 2 * std::numbers::pi;
 PreparedBackground::PreparedBackground(const Background& background, TexturePool& textures,
                                        int compat)
     : background_(background) {
+  if (const auto* sky = std::get_if<SkyBackground>(&background_)) sky_.emplace(*sky);
   auto* const panorama = std::get_if<PanoramaBackground>(&background_);
   if (panorama == nullptr) return;
   texture_ = textures.get(panorama->image);
@@ -34,6 +35,7 @@ ColorLanes PreparedBackground::colors(const VectorLanes& directions, std::uint32
     return mix(lanes_of(gradient->horizon), lanes_of(gradient->sky),
                min(lanes_of(1), abs(directions.y)));
   }
+  if (sky_) return {sky_->light(directions), lanes_of(1)};
   return panorama(std::get<PanoramaBackground>(background_), directions, lanes);
 }
 

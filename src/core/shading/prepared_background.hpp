@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/shading/rgb.hpp"
+#include "core/shading/sky.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/background.hpp"
 #include "crt/vec.hpp"
@@ -25,7 +27,13 @@ class PreparedBackground {
   ColorLanes colors(const VectorLanes& directions, std::uint32_t lanes) const;
 
   /// Returns about how many rows of a picture have all that there is to see.
-  int detail() const { return texture_ == nullptr ? 1 : texture_->height(); }
+  int detail() const {
+    constexpr int detail_of_sky = 128;
+    return texture_ != nullptr ? texture_->height() : sky_ ? detail_of_sky : 1;
+  }
+
+  /// Returns the sky if the background is one. Colours are those without its sun.
+  const Sky* sky() const { return sky_ ? &*sky_ : nullptr; }
 
  private:
   ColorLanes panorama(const PanoramaBackground& panorama, const VectorLanes& directions,
@@ -33,6 +41,7 @@ class PreparedBackground {
 
   Background background_;
   std::shared_ptr<const Texture> texture_;
+  std::optional<Sky> sky_;
 };
 
 }  // namespace crt::core
