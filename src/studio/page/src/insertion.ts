@@ -119,7 +119,7 @@ function libraryInsertion(nodes: TreeNode[]): Insertion | string {
 
 export function makeInsertList(host: InsertHost): HTMLSelectElement {
   const list = document.createElement('select');
-  list.className = 'writes';
+  list.className = 'writes insert';
   list.setAttribute('aria-label', 'Insert into the script');
   list.title = 'Insert a material or a light into the script';
   list.append(new Option('Insert…', ''));
