@@ -1,6 +1,6 @@
 """Compares soft and bounced light: how long each program takes to the same error.
 
-    lights.py --library build/release/lib/libcrt.so [--rounds 3] [--width 160] [area] [room]
+    lights.py --library build/release/lib/libcrt.so [--rounds 3] [--width 160] [area studio room]
 
 Each program is compared with a reference of its own, in linear light, as both have their own idea
 of what is right. Of CRT's settings the fastest counts that is as near to its reference as POV-Ray
@@ -26,9 +26,11 @@ from trade.programs import binding  # noqa: E402
 # The radiosity's time is that of its pretrace.
 CPU_SECONDS = re.compile(r"using \d+ thread\(s\) with ([\d.]+) CPU-seconds")
 POV_SETTINGS = (("-A",), ("+AM2", "+A0.1", "+R3"))
-CRT_SETTINGS = (
-    *({"supersampling": n} for n in (1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24)),
-    *({"targeterror": n / 255, "minsamples": 4} for n in (24, 16, 12, 8, 6, 4, 3, 2)),
+# The grids of each family, by samples of each light for each ray, and the finest last.
+CRT_FAMILIES = (
+    *([{"supersampling": n, "lightsamples": m} for n in (1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 20)]
+      for m in (1, 2, 4)),
+    [{"targeterror": n / 255, "minsamples": 4} for n in (24, 16, 12, 8, 6, 4, 3, 2)],
 )
 
 
@@ -80,15 +82,16 @@ def say(text: str) -> None:
 
 def named(settings: dict) -> str:
     if "supersampling" in settings:
-        return f"{settings['supersampling']} x {settings['supersampling']}"
+        return (f"{settings['supersampling']} x {settings['supersampling']},"
+                f" lightsamples {settings['lightsamples']}")
     return f"target error {settings['targeterror'] * 255:.0f}/255"
 
 
 def as_good(contest: Contest, reference: Picture, error: float) -> dict:
     """Returns the fastest settings whose error is at most this."""
     found = []
-    for family in ("supersampling", "targeterror"):
-        for settings in (s for s in CRT_SETTINGS if family in s):
+    for family in CRT_FAMILIES:
+        for settings in family:
             picture = contest.by_crt(settings)
             if rmse(picture, reference) <= error:
                 found.append((picture.seconds, settings))

@@ -2,7 +2,7 @@
 
 POV-Ray has no rough mirrors, no lights that are seen, and no curve of film. So satin metal is a
 weaker mirror with a highlight, a light with a size is an area light beside a bright polygon, and
-the tone is laid over the linear picture afterwards. docs/lights_measured.md tells more."""
+the tone is laid over the linear picture afterwards. docs/speed.md tells more."""
 
 import math
 import pathlib
@@ -17,6 +17,9 @@ AREA_LIGHT = "9, 9 adaptive 1 jitter"
 RADIOSITY = ("radiosity { pretrace_start 0.08 pretrace_end 0.01 count 200 error_bound 0.3"
              " recursion_limit 4 nearest_count 10 low_error_factor 0.5 brightness 1 }")
 ARC_STEP = math.pi / 18  # of an arc that becomes straight pieces
+# Where a liquid fills glass, POV-Ray loses one of two surfaces at one place. So it is drawn wider.
+OVERLAP = [[1.002, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1.002, 0]]
+GLASS_INDEX = 1.5
 GREY = Record("Material", {"color": (0.5, 0.5, 0.5)})
 
 
@@ -40,7 +43,8 @@ def flattened(contour: list) -> list[tuple[float, float]]:
                                cy + s * (x0 - cx) + c * (y0 - cy)))
         points.append((x1, y1))
         x0, y0 = x1, y1
-    return points
+    # A prism takes a repeated corner for the end of its contour.
+    return [p for i, p in enumerate(points) if math.dist(p, points[i - 1]) > 1e-9]
 
 
 def matrix(rows) -> str:
@@ -156,7 +160,7 @@ global_settings {{
         if camera.lens_radius:
             focus = place + camera.focal_distance * view
             lens = (f" aperture {number(APERTURE_FOR_RADIUS * camera.lens_radius)} focal_point"
-                    f" {vector(focus)} blur_samples 24 variance 1 / 4096 confidence 0.95")
+                    f" {vector(focus)} blur_samples 12 variance 1 / 1024 confidence 0.95")
         return (f"camera {{ location {vector(place)} right {vector(self.aspect * right)}"
                 f" up {vector(up)} direction {vector(long * view)}{lens} }}")
 
@@ -263,6 +267,8 @@ global_settings {{
         v, c = np.cross(a, b), float(a @ b)
         if c < -0.9999:
             return "scale -1"
+        if c > 0.999999:
+            return ""
         k = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
         turn = np.eye(3) + k + k @ k / (1 + c)
         return matrix(np.hstack([turn, np.zeros((3, 1))]).tolist())
@@ -276,13 +282,24 @@ global_settings {{
         if kind == "with_shadow":
             return f"object {{ {self.text(thing.parts[0], outer)} no_shadow }}"
         if kind == "transformed":
-            return f"object {{ {self.text(thing.parts[0], outer)} {matrix(thing.rows)} }}"
+            widened = matrix(OVERLAP) + " " if self.is_liquid(thing, outer) else ""
+            return f"object {{ {self.text(thing.parts[0], outer)} {widened}{matrix(thing.rows)} }}"
         if thing.parts:
             word = kind
             if kind == "union" and any(self.is_glass(part, outer) for part in thing.parts):
                 word = "merge"
             return f"{word} {{\n" + "\n".join(self.text(p, outer) for p in thing.parts) + "\n}"
         return self.shape(thing, self.look(thing.material or outer))
+
+    def is_liquid(self, thing: Record, outer: Record) -> bool:
+        """Says whether it lets light through but for glass, and stands about its own axis."""
+        if thing.kind == "with_material":
+            outer = thing.material
+        if thing.parts:
+            return all(self.is_liquid(part, outer) for part in thing.parts)
+        material = thing.material or outer
+        return bool(material.transmission) and (
+            material.refractive_index or GLASS_INDEX) < GLASS_INDEX
 
     def is_glass(self, thing: Record, outer: Record) -> bool:
         if thing.kind == "with_material":
