@@ -275,21 +275,36 @@ global_settings {{
 
     # -- Shapes -----------------------------------------------------------------------------------
 
-    def text(self, thing: Record, outer: Record) -> str:
+    def text(self, thing: Record, outer: Record, bare: bool = False) -> str:
+        """Writes a thing. One that is bare gets no material, as all that it is a part of has one."""
         kind = thing.kind
         if kind == "with_material":
-            return self.text(thing.parts[0], thing.material)
+            return self.text(thing.parts[0], thing.material, bare)
         if kind == "with_shadow":
-            return f"object {{ {self.text(thing.parts[0], outer)} no_shadow }}"
+            return f"object {{ {self.text(thing.parts[0], outer, bare)} no_shadow }}"
         if kind == "transformed":
             widened = matrix(OVERLAP) + " " if self.is_liquid(thing, outer) else ""
-            return f"object {{ {self.text(thing.parts[0], outer)} {widened}{matrix(thing.rows)} }}"
+            inner = self.text(thing.parts[0], outer, bare)
+            return f"object {{ {inner} {widened}{matrix(thing.rows)} }}"
         if thing.parts:
             word = kind
             if kind == "union" and any(self.is_glass(part, outer) for part in thing.parts):
                 word = "merge"
-            return f"{word} {{\n" + "\n".join(self.text(p, outer) for p in thing.parts) + "\n}"
-        return self.shape(thing, self.look(thing.material or outer))
+            # Glass absorbs light only if the whole solid is said to be of it.
+            materials = {id(m): m for m in self.materials(thing, outer)}
+            one = next(iter(materials.values()))
+            is_whole = len(materials) == 1 and bool(one.transmission) and not bare
+            parts = (self.text(part, outer, bare or is_whole) for part in thing.parts)
+            look = self.look(one) if is_whole else ""
+            return f"{word} {{\n" + "\n".join(parts) + f"\n{look} }}"
+        return self.shape(thing, "" if bare else self.look(thing.material or outer))
+
+    def materials(self, thing: Record, outer: Record) -> list[Record]:
+        if thing.kind == "with_material":
+            outer = thing.material
+        if thing.parts:
+            return [m for part in thing.parts for m in self.materials(part, outer)]
+        return [thing.material or outer]
 
     def is_liquid(self, thing: Record, outer: Record) -> bool:
         """Says whether it lets light through but for glass, and stands about its own axis."""
