@@ -276,7 +276,7 @@ global_settings {{
     # -- Shapes -----------------------------------------------------------------------------------
 
     def text(self, thing: Record, outer: Record, bare: bool = False) -> str:
-        """Writes a thing. One that is bare gets no material, as all that it is a part of has one."""
+        """Writes a thing. A bare one gets no material, as all that it is a part of has one."""
         kind = thing.kind
         if kind == "with_material":
             return self.text(thing.parts[0], thing.material, bare)
