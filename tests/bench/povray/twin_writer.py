@@ -17,8 +17,9 @@ AREA_LIGHT = "9, 9 adaptive 1 jitter"
 RADIOSITY = ("radiosity { pretrace_start 0.08 pretrace_end 0.01 count 200 error_bound 0.3"
              " recursion_limit 4 nearest_count 10 low_error_factor 0.5 brightness 1 }")
 ARC_STEP = math.pi / 18  # of an arc that becomes straight pieces
-# Where a liquid fills glass, POV-Ray loses one of two surfaces at one place. So it is drawn wider.
-OVERLAP = [[1.002, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1.002, 0]]
+# Where a liquid fills glass, POV-Ray loses one of two surfaces at one place, and where solids
+# overlap it absorbs light only up to the next surface. So there is a gap around it.
+GAP = [[0.998, 0, 0, 0], [0, 1, 0, 0.001], [0, 0, 0.998, 0]]
 GLASS_INDEX = 1.5
 GREY = Record("Material", {"color": (0.5, 0.5, 0.5)})
 
@@ -283,9 +284,9 @@ global_settings {{
         if kind == "with_shadow":
             return f"object {{ {self.text(thing.parts[0], outer, bare)} no_shadow }}"
         if kind == "transformed":
-            widened = matrix(OVERLAP) + " " if self.is_liquid(thing, outer) else ""
+            narrowed = matrix(GAP) + " " if self.is_liquid(thing, outer) else ""
             inner = self.text(thing.parts[0], outer, bare)
-            return f"object {{ {inner} {widened}{matrix(thing.rows)} }}"
+            return f"object {{ {inner} {narrowed}{matrix(thing.rows)} }}"
         if thing.parts:
             word = kind
             if kind == "union" and any(self.is_glass(part, outer) for part in thing.parts):
