@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t most_steps = 1'000'000;
 
 /// Rough mirrors are smooth after some samples, and a ball must not take long.
-constexpr int max_samples = 32;
+constexpr int most_samples = 32;
 
 /// The light is that of ViewMode::material.
 constexpr std::string_view stage = R"(
@@ -74,7 +74,7 @@ std::optional<std::string> material_ball(const std::string& text, const std::str
     if (!result.scene) return std::nullopt;
     const Camera camera = result.scene->camera;
     Scene scene = scene_in_mode(*result.scene, ViewMode::material, camera);
-    scene.settings.max_samples = max_samples;
+    scene.settings.max_samples = most_samples;
     const Image image = render(prepare(scene), RenderOptions{.threads = 1});
     return text::base64(image.encode("png", {.reproducible = true}));
   } catch (const Error&) {

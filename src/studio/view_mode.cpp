@@ -96,11 +96,11 @@ void add_lights(std::vector<Light>& lights, std::span<const FarLight> far_lights
   for (const auto& [from, strength] : far_lights) {
     const Vec3 turned{std::cos(turn) * from.x + std::sin(turn) * from.z, from.y,
                       std::cos(turn) * from.z - std::sin(turn) * from.x};
-    lights.push_back(ParallelLight{.from = turned,
-                                   .pointing = {0, 0, 0},
-                                   .color = grey(strength),
-                                   .ambient = lights.empty() ? ambient / strength : 0,
-                                   .angle = angle});
+    lights.emplace_back(ParallelLight{.from = turned,
+                                      .pointing = {0, 0, 0},
+                                      .color = grey(strength),
+                                      .ambient = lights.empty() ? ambient / strength : 0,
+                                      .angle = angle});
   }
 }
 

@@ -1,7 +1,7 @@
 // The page in a real browser: what somebody does who opens it for the first time.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {readFileSync, writeFileSync} from 'node:fs';
+import {readFileSync, renameSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {test} from 'node:test';
 import {browser, cameraOf, clickPicture, dragPicture, scene, selectedText, shown, shownBytes,
@@ -188,16 +188,22 @@ withPage('saving writes the file', async ({page, folder}) => {
   assert.equal(readFileSync(join(folder, 'a.crt'), 'utf8'), scene.replace('0.7', '0.5'));
 });
 
+/** Writes the script at once, as the server may look at any time. */
+function writeWhole(folder, text) {
+  writeFileSync(join(folder, 'a.new'), text);
+  renameSync(join(folder, 'a.new'), join(folder, 'a.crt'));
+}
+
 withPage('what another program writes is shown, and what was typed is not lost by it',
          async ({page, folder}) => {
-  writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.4'));
+  writeWhole(folder, scene.replace('0.7', '0.4'));
   await page.waitForFunction(() => studio.editor.text.includes('radius -> 0.4'));
   assert.equal(await page.evaluate(() => studio.file.isChanged), false);
   await type(page, '0.4', '0.45');
-  writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.9'));
+  writeWhole(folder, scene.replace('0.7', '0.9'));
   await page.getByRole('button', {name: 'Keep what is here'}).click();
   assert.match(await text(page), /radius -> 0\.45/);
-  writeFileSync(join(folder, 'a.crt'), scene.replace('0.7', '0.8'));
+  writeWhole(folder, scene.replace('0.7', '0.8'));
   await page.getByRole('button', {name: 'Take the file'}).click();
   assert.equal(await text(page), scene.replace('0.7', '0.8'));
   await page.evaluate(() => studio.editor.view.focus());
