@@ -66,10 +66,12 @@ class Canvas {
   /// Returns and takes all guides, to keep them elsewhere for a while.
   std::vector<Guide> guides() const;
   void set_guides(std::vector<Guide> guides);
-  /// Frees the picture of noise. All tiles must be in, and the guides go.
-  void denoise(const StripRunner& run);
-  /// Returns the picture with what is done at the time, freed of noise if there are guides.
-  Image denoised_copy(const StripRunner& run) const;
+  /// Frees the picture of noise, and keeps that part of it alone. All tiles must be in, and the
+  /// guides go.
+  void denoise(const StripRunner& run, const Region& part);
+  /// Returns a part of the picture with what is done at the time, freed of noise if there are
+  /// guides.
+  Image denoised_copy(const StripRunner& run, const Region& part) const;
 
   void set_stats(const RenderStats& stats);
 

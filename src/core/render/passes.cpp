@@ -30,15 +30,6 @@ constexpr double share_of_pass = share_of_doubling / passes_per_step;
 constexpr int reach_of_statistics = 1;
 constexpr int reach_of_statistics_with_lens = 2;
 
-/// Returns the region and the pixels around it, as far as these are within `limits`.
-Region widened(const Region& region, int margin, const Region& limits) {
-  const int left = std::max(region.x - margin, limits.x);
-  const int top = std::max(region.y - margin, limits.y);
-  const int right = std::min(region.x + region.width + margin, limits.x + limits.width);
-  const int bottom = std::min(region.y + region.height + margin, limits.y + limits.height);
-  return {left, top, right - left, bottom - top};
-}
-
 /// Calls use(y, begin, end) for the parts of each row of an area that are outside of a tile, which
 /// is partly in the area.
 template <class Use>

@@ -39,6 +39,12 @@ Region chosen_region(const RenderOptions& options, const Settings& settings) {
   return region;
 }
 
+/// Returns the part that is rendered for it. The filter looks beyond its borders.
+Region rendered_region(const Region& region, const Settings& settings) {
+  if (!settings.denoise) return region;
+  return widened(region, denoise_reach, {0, 0, settings.width, settings.height});
+}
+
 Settings chosen_settings(const RenderOptions& options, const Settings& settings) {
   Settings chosen = settings;
   if (options.seed) chosen.seed = *options.seed;
@@ -75,7 +81,8 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
     : data_(data),
       options_(std::move(options)),
       settings_(chosen_settings(options_, data.scene().settings)),
-      canvas_(chosen_region(options_, settings_), settings_),
+      region_(chosen_region(options_, settings_)),
+      canvas_(rendered_region(region_, settings_), settings_),
       progress_(options_.progress),
       rules_{.most = options_.max_ray_steps == 0 ? usual_most_steps : options_.max_ray_steps,
              .poll = [this] { progress_.poll_in_ray(); }},
@@ -253,7 +260,7 @@ RenderStats Rendering::render_picture() {
   }
   report_cutoff(counts.cutoff, data_.scene().background, stats);
   if (settings_.denoise) {
-    canvas_.denoise(strip_runner());
+    canvas_.denoise(strip_runner(), region_);
     forget_accuracy(stats);
   }
   progress_.finish();
@@ -261,13 +268,13 @@ RenderStats Rendering::render_picture() {
 }
 
 Image Rendering::picture() const {
-  return canvas_.denoised_copy(
-      [this](std::size_t count, const std::function<void(std::size_t)>& task) {
-        run_tasks(count, options_.threads, [&task](std::size_t index) {
-          const FloatEnvironment ieee;
-          task(index);
-        });
-      });
+  const auto run = [this](std::size_t count, const std::function<void(std::size_t)>& task) {
+    run_tasks(count, options_.threads, [&task](std::size_t index) {
+      const FloatEnvironment ieee;
+      task(index);
+    });
+  };
+  return canvas_.denoised_copy(run, region_);
 }
 
 StripRunner Rendering::strip_runner() {

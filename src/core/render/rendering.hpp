@@ -72,7 +72,8 @@ class Rendering {
   const PreparedData& data_;
   RenderOptions options_;
   Settings settings_;
-  Canvas canvas_;
+  Region region_;  ///< that is asked for
+  Canvas canvas_;  ///< of it, or of more that a filter needs
   Progress progress_;
   StepRules rules_;  ///< of every ray
   PassClock::Seconds seconds_;

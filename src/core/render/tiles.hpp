@@ -24,6 +24,15 @@ inline std::size_t index_in(const Region& region, int x, int y) {
          static_cast<std::size_t>(x - region.x);
 }
 
+/// Returns the region and the pixels around it, as far as these are within `limits`.
+inline Region widened(const Region& region, int margin, const Region& limits) {
+  const int left = std::max(region.x - margin, limits.x);
+  const int top = std::max(region.y - margin, limits.y);
+  const int right = std::min(region.x + region.width + margin, limits.x + limits.width);
+  const int bottom = std::min(region.y + region.height + margin, limits.y + limits.height);
+  return {left, top, right - left, bottom - top};
+}
+
 class Tiles {
  public:
   /// The side is in pixels. A tile has enough rays to outweigh handing it out, and few enough to
