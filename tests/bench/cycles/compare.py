@@ -128,8 +128,8 @@ def mean_square(a: np.ndarray, b: np.ndarray) -> float:
 
 
 @dataclass(frozen=True)
-class Judge:
-    """A Judge compares with a reference, within the light's radiance, where pixels count."""
+class Yardstick:
+    """A Yardstick compares with a reference, within the light's radiance, where pixels count."""
 
     counts: np.ndarray
     brightest: float
@@ -145,7 +145,7 @@ def clipped(picture: np.ndarray, counts: np.ndarray, brightest: float) -> np.nda
     return np.minimum(picture[counts], brightest)
 
 
-def judge(bench: Bench, name: str, family: str, samples: int) -> Judge:
+def yardstick(bench: Bench, name: str, family: str, samples: int) -> Yardstick:
     """Renders a reference: the mean of two halves with different random numbers."""
     room = rooms.ROOMS[name]()
     counts, brightest = counted(room, bench.size), max(room["light"]["radiance"])
@@ -156,7 +156,7 @@ def judge(bench: Bench, name: str, family: str, samples: int) -> Judge:
             np.save(kept, FAMILIES[family](bench, name, seed, (samples,))[0].picture)
             bench.say(f"{name}: half of the reference of {family}")
         halves.append(clipped(np.load(kept), counts, brightest))
-    return Judge(counts, brightest, (halves[0] + halves[1]) / 2, mean_square(*halves) / 4)
+    return Yardstick(counts, brightest, (halves[0] + halves[1]) / 2, mean_square(*halves) / 4)
 
 
 @dataclass
@@ -182,7 +182,9 @@ def time_to(error: float, points: list[tuple[float, float]]) -> float:
 
 def measure(bench: Bench, name: str, rounds: int, reference_samples: int) -> dict:
     """Measures a room, and writes what is known of it after each round."""
-    own = {family: judge(bench, name, family, reference_samples) for family in ("CRT", "Cycles")}
+    own = {
+        family: yardstick(bench, name, family, reference_samples) for family in ("CRT", "Cycles")
+    }
     means = {family: float(each.reference.mean()) for family, each in own.items()}
     if abs(means["CRT"] / means["Cycles"] - 1) > ALIKE:
         raise Failed(f"the references of {name} differ: {means}")
@@ -191,7 +193,7 @@ def measure(bench: Bench, name: str, rounds: int, reference_samples: int) -> dic
         "apart": math.sqrt(mean_square(own["CRT"].reference, own["Cycles"].reference)),
         "uncertainty": {family: math.sqrt(each.uncertainty) for family, each in own.items()},
     }
-    judges = {**own, "CRT, grid": own["CRT"]}
+    yardsticks = {**own, "CRT, grid": own["CRT"]}
     found = {family: {count: Point() for count in SAMPLES} for family in FAMILIES}
     for turn in range(rounds):
         for family, renderer in FAMILIES.items():
@@ -199,7 +201,7 @@ def measure(bench: Bench, name: str, rounds: int, reference_samples: int) -> dic
             for count, rendered in zip(SAMPLES, rest, strict=True):
                 seconds = (rendered.seconds - least.seconds) * count / (count - LEAST)
                 found[family][count].seconds.append(seconds)
-                found[family][count].rmse.append(judges[family].rmse(rendered.picture))
+                found[family][count].rmse.append(yardsticks[family].rmse(rendered.picture))
                 bench.say(f"{name}: {family}, {count} samples: {seconds:.2f} s,"
                           f" RMSE {found[family][count].rmse[-1]:.5f}")
         result["points"] = {

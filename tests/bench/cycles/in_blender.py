@@ -16,7 +16,7 @@ import bmesh
 import bpy
 import mathutils
 
-SEGMENTS, RINGS = 96, 48  # of a sphere, whose outline is off by 0.0006 of its radius at most
+SEGMENTS, RINGS = 96, 48  # of a sphere, whose silhouette is off by 0.0006 of its radius at most
 BOX_FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 

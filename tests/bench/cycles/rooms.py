@@ -21,7 +21,7 @@ def box(
     return {"low": low, "high": high, "color": color, "turned": turned, "at": at}
 
 
-def lamp(corner: Vector, x: float, z: float, radiance: Vector) -> tuple[dict, dict]:
+def cased_light(corner: Vector, x: float, z: float, radiance: Vector) -> tuple[dict, dict]:
     """Returns a light that shines down, and its black casing. Behind a light CRT's rays end, and
     those of Cycles go on: with the casing there is nothing to be seen there."""
     low = tuple(np.add(corner, (0, 0.001, 0)).tolist())
@@ -35,7 +35,7 @@ def sphere(center: Vector, radius: float, color: Vector, is_metal: bool = False)
 
 def closed() -> Room:
     """Returns a room without a window: two boxes, a matt ball and one of rough metal."""
-    light, casing = lamp((-0.5, 2.49, -0.6), 1.0, 0.8, (12, 11, 9))
+    light, casing = cased_light((-0.5, 2.49, -0.6), 1.0, 0.8, (12, 11, 9))
     walls = [
         box((-1.6, -0.1, -3.1), (1.6, 0, 1.6), WHITE),
         box((-1.6, 2.5, -3.1), (1.6, 2.6, 1.6), WHITE),
@@ -72,7 +72,7 @@ def spheres() -> Room:
         if apart:
             color = tuple(round(chance.uniform(0.1, 0.9), 3) for _ in range(3))
             placed.append(sphere(center, radius, color, is_metal=len(placed) % 4 == 0))
-    light, casing = lamp((-3, 4.5, -3), 1.5, 1.5, (20, 18, 15))
+    light, casing = cased_light((-3, 4.5, -3), 1.5, 1.5, (20, 18, 15))
     boxes = [box((-6, -0.1, -6), (6, 0, 4), WHITE), box((-6, 0, 4), (6, 4, 4.1), WHITE), casing]
     for index in range(6):
         side = 0.3 + 0.05 * index
