@@ -218,8 +218,8 @@ def measure(bench: Bench, name: str, rounds: int, reference_samples: int) -> dic
 
 def table(results: dict[str, dict]) -> str:
     lines = [
-        "| room | samples | Cycles, s | RMSE | CRT, s | RMSE | CRT to Cycles' RMSE, s | ratio |"
-        " by the grid, s | ratio |",
+        "| room | samples | Cycles, s | RMSE | CRT, s | RMSE | to that RMSE, s | ratio |"
+        " by grid, s | ratio |",
         "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|",
     ]
     for name, result in results.items():
