@@ -1,12 +1,11 @@
 #include "core/shading/environment.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <crt/elementary.hpp>
 #include <numbers>
 #include <span>
 
 #include "core/math/quick_angle.hpp"
+#include "core/shading/quick_sine.hpp"
 
 namespace crt::core {
 
@@ -19,12 +18,11 @@ constexpr std::size_t places_a_side = 2;
 /// This share of the samples is drawn evenly, as the table does not know all that is in a cell.
 constexpr double even_share = 0.1;
 
-/// Returns the direction at a place of the grid: a turn about y and a height, both in [0, 1].
-Vec3 direction_of_cell(double turn, double height) {
-  const double y = 1 - 2 * height;
-  const double level = std::sqrt(std::max(0.0, 4 * height * (1 - height)));
-  const double angle = 2 * std::numbers::pi * turn;
-  return {level * elementary::sin(angle), y, level * elementary::cos(angle)};
+/// Returns the directions at places of the grid: turns about y and heights, both in [0, 1].
+VectorLanes directions_at(const Lanes& turns, const Lanes& heights) {
+  const Lanes level = sqrt(max(Lanes{}, 4.0 * heights * (1.0 - heights)));
+  const auto [sine, cosine] = quick_sine_and_cosine((2 * std::numbers::pi) * turns);
+  return {level * sine, 1.0 - 2.0 * heights, level * cosine};
 }
 
 /// Makes sums of what was there before each entry, divided by the whole.
@@ -63,18 +61,19 @@ Environment::Environment(const PreparedBackground& background)
   for (std::size_t row = 0; row < rows_; ++row) {
     double* const cells = &by_column_[row * (columns_ + 1)];
     for (std::size_t column = 0; column < columns_; ++column) {
-      VectorLanes directions;
+      Lanes turns;
+      Lanes heights;
       for (std::size_t place = 0; place < lane_count; ++place) {
         const std::size_t above = place / places_a_side;
         const double across = 0.5 + static_cast<double>(place % places_a_side);
         const double down = 0.5 + static_cast<double>(above);
-        const double turn =
+        turns[place] =
             (static_cast<double>(column) + across / places_a_side) / static_cast<double>(columns_);
-        const double height =
+        heights[place] =
             (static_cast<double>(row) + down / places_a_side) / static_cast<double>(rows_);
-        directions.set(place, direction_of_cell(turn, height));
       }
-      const ColorLanes colors = background_.colors(directions, (1u << lane_count) - 1);
+      const ColorLanes colors =
+          background_.colors(directions_at(turns, heights), (1u << lane_count) - 1);
       const Lanes light = colors.color.x + colors.color.y + colors.color.z;
       cells[column] = light[0] + light[1] + light[2] + light[3];
       whole += cells[column];
@@ -110,16 +109,17 @@ void Environment::soften() {
 }
 
 void Environment::sample(const LightNumbers& numbers, LightSamples& light) const {
+  Lanes turns;
+  Lanes heights;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const Drawn row = draw(by_row_, numbers.v[lane]);
     const Drawn column = draw(
         std::span(by_column_).subspan(row.entry * (columns_ + 1), columns_ + 1), numbers.u[lane]);
-    light.directions.set(
-        lane, direction_of_cell(
-                  (static_cast<double>(column.entry) + column.rest) / static_cast<double>(columns_),
-                  (static_cast<double>(row.entry) + row.rest) / static_cast<double>(rows_)));
+    turns[lane] = (static_cast<double>(column.entry) + column.rest) / static_cast<double>(columns_);
+    heights[lane] = (static_cast<double>(row.entry) + row.rest) / static_cast<double>(rows_);
     light.intensities[lane] = 4 / strength(row.entry, column.entry);
   }
+  light.directions = directions_at(turns, heights);
   light.colors = background_.colors(light.directions, (1u << lane_count) - 1).color;
 }
 

@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "core/geometry/angles.hpp"
 #include "core/math/quick_angle.hpp"
+#include "core/shading/quick_sine.hpp"
 
 namespace crt::core {
 
@@ -13,19 +13,6 @@ namespace {
 Lanes angle_of(const Lanes& cosine) {
   const Lanes squared_sine = max(Lanes{}, (1.0 - cosine) * (1.0 + cosine));
   return quick_atan2<Lanes>(sqrt(squared_sine), cosine);
-}
-
-/// Returns sine and cosine of angles from 0 to some turns.
-SineAndCosine<Lanes> of_angle(const Lanes& angle) {
-  constexpr double quarter = std::numbers::pi / 2;
-  const Lanes quarters = floor(angle * (1 / quarter) + 0.5);
-  const auto [sine, cosine] = of_eighth_turns<Lanes>((2 / quarter) * (angle - quarters * quarter));
-  const Lanes half = floor(0.5 * quarters);
-  const LaneMask is_odd = quarters - 2.0 * half > 0.5;
-  const LaneMask is_turned = half - 2.0 * floor(0.5 * half) > 0.5;
-  const Lanes sign = select(is_turned, lanes_of(-1), lanes_of(1));
-  return {.sine = sign * select(is_odd, cosine, sine),
-          .cosine = sign * select(is_odd, -sine, cosine)};
 }
 
 }  // namespace
@@ -53,7 +40,7 @@ SphericalRectangle::SphericalRectangle(const RectangleFrame& frame, const Vector
 }
 
 VectorLanes SphericalRectangle::sample(const LightNumbers& numbers) const {
-  const auto [sine, cosine] = of_angle(numbers.u * solid_angles_ + k_);
+  const auto [sine, cosine] = quick_sine_and_cosine(numbers.u * solid_angles_ + k_);
   const Lanes f = (cosine * b0_ - b1_) / sine;
   const Lanes size = 1.0 / sqrt(f * f + b0_ * b0_);
   const Lanes c = clamp(select(f > 0.0, size, -size), lanes_of(-1), lanes_of(1));
