@@ -233,7 +233,7 @@ class BackgroundType(enum.IntEnum):
 @growable("crt_background", type=BackgroundType)
 class Background(Struct):
     """A Background is what a ray that hits nothing sees: a colour, Background.gradient(),
-    Background.panorama(image), or Background.sky(), which is a light, too."""
+    Background.panorama(image), or Background.daylight(), which is a light, too."""
 
     @classmethod
     def gradient(cls, **fields: Any) -> "Background":
@@ -256,7 +256,7 @@ class Background(Struct):
         return cls(type=type, image=image, **fields)
 
     @classmethod
-    def sky(cls, **fields: Any) -> "Background":
+    def daylight(cls, **fields: Any) -> "Background":
         """Is a clear sky whose sun is in the direction `sun`. Both light the scene."""
         return cls(type=BackgroundType.SKY, **fields)
 

@@ -789,7 +789,7 @@ class BackgroundType(enum.IntEnum):
 
 class Background(_Struct):
     """A Background is what a ray that hits nothing sees: a colour, Background.gradient(),
-    Background.panorama(image), or Background.sky(), which is a light, too.
+    Background.panorama(image), or Background.daylight(), which is a light, too.
 
     Its fields are:
     - type (BackgroundType, or its name): a BackgroundType; default BackgroundType.SOLID
@@ -900,6 +900,25 @@ class Background(_Struct):
         """Shows a crt.Image all around: spherical (equirectangular), unless it is one of the
         others.
         """
+    @classmethod
+    def daylight(
+        cls,
+        *,
+        color: GivenVector = ...,
+        alpha: SupportsFloat = ...,
+        horizon: GivenVector = ...,
+        horizon_alpha: SupportsFloat = ...,
+        sky: GivenVector = ...,
+        sky_alpha: SupportsFloat = ...,
+        image: Image | None = ...,
+        angle: SupportsFloat = ...,
+        sun: GivenVector = ...,
+        turbidity: SupportsFloat = ...,
+        scale: SupportsFloat = ...,
+        ground: GivenVector = ...,
+        shines: SupportsIndex = ...,
+    ) -> Background:
+        """Is a clear sky whose sun is in the direction `sun`. Both light the scene."""
 
 PixelFilterName = Literal["box", "blackman_harris"]
 

@@ -18,6 +18,15 @@ class Values(unittest.TestCase):
         self.assertEqual(crt.Light.parallel().origin, (0, 1, 0))
         self.assertNotEqual(crt.Pattern.wood().color_a, crt.Pattern.checker().color_a)
 
+    def test_a_sky_is_a_background_that_comes_back(self):
+        scene = crt.Scene(background=crt.Background.daylight(sun=(1, 0.5, 0), turbidity=4))
+        sky = scene.copy().background
+        self.assertEqual(sky.type, crt.BackgroundType.SKY)
+        self.assertEqual(tuple(sky.sun), (1, 0.5, 0))
+        self.assertEqual((sky.turbidity, sky.scale, sky.shines), (4, 1, 1))
+        with self.assertRaisesRegex(crt.Error, "turbidity"):
+            scene.background = crt.Background.daylight(turbidity=1)
+
     def test_panoramas_are_spherical_cylindrical_or_of_equal_area(self):
         image = crt.Image.from_pixels(np.ones((2, 1, 4), np.float32))
         kinds = [crt.Background.panorama(image).type]
