@@ -102,7 +102,7 @@ TEST_CASE("16 samples that are denoised are far nearer to what they are the mean
     double factor;  ///< of the error, a bit less than was measured
   };
   for (const auto& [name, scene, factor] :
-       {Case{"room", room(), 1.8}, Case{"soft shadows", soft_shadows(), 1.4}}) {
+       {Case{"room", room(), 1.6}, Case{"soft shadows", soft_shadows(), 1.3}}) {
     Scene few = scene;
     few.settings.supersampling = 4;
     // The grid's places are the same for all seeds. What is left is the noise of light.

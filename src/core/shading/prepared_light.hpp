@@ -186,6 +186,7 @@ class PreparedLight {
   Vec3 edge_b_{0, 0, 0};
   std::optional<RectangleFrame> around_;  ///< a rectangle around a flat light, if it fits well
   Vec3 corner_{0, 0, 0};                  ///< of that rectangle
+  double near_ = 0;                       ///< the distance from its middle up to which it counts
 };
 
 }  // namespace crt::core

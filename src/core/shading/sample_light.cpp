@@ -150,14 +150,12 @@ void PreparedLight::sample_flat(const VectorLanes& points, const VectorLanes& on
 
 LaneMask PreparedLight::are_near(const VectorLanes& points) const {
   if (!around_) return LaneMask{};
-  constexpr double far = 4;             // There it is seen under 1/32 at most.
   constexpr double flattest = 0x1p-20;  // Nearer to its plane it is hardly seen.
   const double squared = around_->width * around_->width + around_->height * around_->height;
   const Vec3 middle = corner_ + 0.5 * (around_->width * around_->x + around_->height * around_->y);
   const VectorLanes offset = points - lanes_of(middle);
   const Lanes height = dot(offset, lanes_of(axis_));
-  return dot(offset, offset) < far * far * squared &&
-         height * height > flattest * flattest * squared;
+  return dot(offset, offset) < near_ * near_ && height * height > flattest * flattest * squared;
 }
 
 void PreparedLight::sample_near(const VectorLanes& points, const LightNumbers& numbers,
