@@ -215,14 +215,15 @@ Guide guide_of(const FirstHit& hit, const Lanes& variances, std::size_t estimate
 
 Guide guide_of(const FirstHit& hit, const PixelNoise& noise, std::uint64_t samples) {
   const std::uint64_t size = block_size(samples);
-  const auto blocks = static_cast<double>(samples / size);
+  const std::uint64_t count = samples / size;
+  const auto blocks = static_cast<double>(count);
   const double divisor =
       std::max(1.0, blocks - 1) * static_cast<double>(size) * static_cast<double>(samples);
   const Lanes squares = noise.squares - noise.sum * noise.sum / blocks;
   // Where all blocks are alike, rounding leaves some of their squares.
   constexpr double rounding = 0x1p-40;
   const Lanes variances = select(squares > rounding * noise.squares, squares / divisor, Lanes{});
-  return guide_of(hit, variances, static_cast<std::size_t>(blocks));
+  return guide_of(hit, variances, count);
 }
 
 void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer,

@@ -15,7 +15,7 @@ namespace crt::core {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double half_turn = std::numbers::pi;
 
 double sine_of(double cosine) {
   return std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
@@ -81,7 +81,7 @@ LightTree::LightBounds LightTree::together(const LightBounds& a, const LightBoun
   if (between + angle_a <= angle_b) return take(b);
   const double angle = (angle_a + between + angle_b) / 2;
   const Vec3 across = glm::cross(a.axis, b.axis);
-  if (angle >= pi || across == Vec3(0)) return result;
+  if (angle >= half_turn || across == Vec3(0)) return result;
   result.axis = turned(a.axis, direction_and_length(across).direction, angle - angle_a);
   result.cosine = elementary::cos(angle);
   return result;
@@ -113,12 +113,12 @@ double LightTree::LightBounds::importance(const LitPoint& point) const {
 /// The cost is the strength times the solid angle that is shone into, times the surface of the box.
 double LightTree::cost(const LightBounds& bounds, double longest_over_side) {
   const double angle = elementary::acos(bounds.cosine);
-  const double reach = std::min(angle + pi / 2, pi);
+  const double reach = std::min(angle + half_turn / 2, half_turn);
   const double sine = elementary::sin(angle);
-  const double angles =
-      2 * pi * (1 - bounds.cosine) + pi / 2 *
-                                         (2 * reach * sine - elementary::cos(angle - 2 * reach) -
-                                          2 * angle * sine + bounds.cosine);
+  const double angles = 2 * half_turn * (1 - bounds.cosine) +
+                        half_turn / 2 *
+                            (2 * reach * sine - elementary::cos(angle - 2 * reach) -
+                             2 * angle * sine + bounds.cosine);
   const Vec3 size = bounds.box.upper - bounds.box.lower;
   const double surface = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
   return bounds.strength * angles * longest_over_side * surface;
