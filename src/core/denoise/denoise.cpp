@@ -36,25 +36,25 @@ float slope_between(float before, float here, float behind) {
 class Denoiser {
  public:
   Denoiser(int width, int height, std::span<float> pixels, std::span<const Guide> guides)
-      : shape_(width, height), pixels_(pixels), guides_(guides), planes_(shape_) {}
+      : layout_(width, height), pixels_(pixels), guides_(guides), planes_(layout_) {}
 
   void run(const StripRunner& run_strips) {
     const auto in_strips = [&](const std::function<void(int, int)>& work) {
-      const int strips = (shape_.height() + rows_of_strip - 1) / rows_of_strip;
+      const int strips = (layout_.height() + rows_of_strip - 1) / rows_of_strip;
       run_strips(static_cast<std::size_t>(strips), [&](std::size_t strip) {
         const int first = static_cast<int>(strip) * rows_of_strip;
-        work(first, std::min(shape_.height(), first + rows_of_strip));
+        work(first, std::min(layout_.height(), first + rows_of_strip));
       });
     };
-    Plane own(shape_.size());
+    Plane own(layout_.size());
     in_strips([&](int first, int last) { take(first, last, own); });
     in_strips([&](int first, int last) { find_slopes(first, last); });
-    Plane residuals(shape_.size());
+    Plane residuals(layout_.size());
     const bool some_are_unknown = std::any_of(
         guides_.begin(), guides_.end(), [](const Guide& guide) { return guide.estimates < 2; });
     if (some_are_unknown)
       in_strips([&](int first, int last) { find_residuals(planes_, first, last, residuals); });
-    Plane variances(shape_.size());
+    Plane variances(layout_.size());
     in_strips([&](int first, int last) {
       find_variances(planes_, guides_, own, residuals, first, last, variances);
     });
@@ -72,10 +72,10 @@ class Denoiser {
   template <class Use>
   void for_each_pixel(int first_row, int last_row, const Use& use) const {
     for (int y = first_row; y < last_row; ++y) {
-      for (int x = 0; x < shape_.width(); ++x) {
-        use(static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width()) +
+      for (int x = 0; x < layout_.width(); ++x) {
+        use(static_cast<std::size_t>(y) * static_cast<std::size_t>(layout_.width()) +
                 static_cast<std::size_t>(x),
-            shape_.index(x, y));
+            layout_.index(x, y));
       }
     }
   }
@@ -105,7 +105,7 @@ class Denoiser {
   }
 
   void find_slopes(int first_row, int last_row) {
-    const std::size_t row = shape_.index(0, 1) - shape_.index(0, 0);
+    const std::size_t row = layout_.index(0, 1) - layout_.index(0, 0);
     const Plane& nearness = planes_.nearness;
     for_each_pixel(first_row, last_row, [&](std::size_t, std::size_t place) {
       planes_.slope_x[place] =
@@ -124,15 +124,15 @@ class Denoiser {
       return planes_.light[0][place] + planes_.light[1][place] + planes_.light[2][place];
     };
     for (int y = first_row; y < last_row; ++y) {
-      for (int x = 0; x < shape_.width(); ++x) {
-        const std::size_t place = shape_.index(x, y);
+      for (int x = 0; x < layout_.width(); ++x) {
+        const std::size_t place = layout_.index(x, y);
         if (planes_.variance[place] == 0) continue;
         float weights = 0;
         float sum = 0;
         float squares = 0;
         for (int dy = -radius; dy <= radius; ++dy) {
           for (int dx = -radius; dx <= radius; ++dx) {
-            const std::size_t other = shape_.index(x + dx, y + dy);
+            const std::size_t other = layout_.index(x + dx, y + dy);
             if (other == place || planes_.is_known[other] == 0) continue;
             const float weight =
                 weight_of(std::min(farthest, SurfaceDistance(planes_, dx, dy)(place, other)));
@@ -155,18 +155,18 @@ class Denoiser {
 
   /// Repeats the picture's edges in the margin.
   void extend(Plane& plane) const {
-    const int width = shape_.width();
-    const int height = shape_.height();
+    const int width = layout_.width();
+    const int height = layout_.height();
     for (int y = -margin_of_planes; y < height + margin_of_planes; ++y) {
       const int row = std::clamp(y, 0, height - 1);
       for (int x = -margin_of_planes; x < width + margin_of_planes; ++x)
-        plane[shape_.index(x, y)] = plane[shape_.index(std::clamp(x, 0, width - 1), row)];
+        plane[layout_.index(x, y)] = plane[layout_.index(std::clamp(x, 0, width - 1), row)];
     }
   }
 
   void filter(int first_row, int last_row);
 
-  PlaneShape shape_;
+  PlaneLayout layout_;
   std::span<float> pixels_;
   std::span<const Guide> guides_;
   PicturePlanes planes_;
@@ -185,7 +185,7 @@ class Strip {
  public:
   Strip(const PicturePlanes& planes, int first_row, int last_row)
       : planes_(planes),
-        width_(planes.shape.width()),
+        width_(planes.layout.width()),
         first_row_(first_row),
         rows_(last_row - first_row),
         distances_(static_cast<std::size_t>((width_ + 2) * (rows_ + 2))),
@@ -226,8 +226,8 @@ class Strip {
     constexpr float squared_deviations = 0.45F * 0.45F;
     constexpr float least = 1e-30F;
     constexpr float pixels_of_patch = 9;
-    const std::size_t one = planes_.shape.index(-1, first_row_ + row);
-    const std::size_t other = planes_.shape.index(-1 + dx, first_row_ + row + dy);
+    const std::size_t one = planes_.layout.index(-1, first_row_ + row);
+    const std::size_t other = planes_.layout.index(-1 + dx, first_row_ + row + dy);
     const auto wide = static_cast<std::size_t>(width_ + 2);
     const float* const red = planes_.light[0].data();
     const float* const green = planes_.light[1].data();
@@ -250,8 +250,8 @@ class Strip {
   }
 
   void weigh(int row, int dx, int dy, const std::array<const float*, 3>& across) {
-    const std::size_t one = planes_.shape.index(0, first_row_ + row);
-    const std::size_t other = planes_.shape.index(dx, first_row_ + row + dy);
+    const std::size_t one = planes_.layout.index(0, first_row_ + row);
+    const std::size_t other = planes_.layout.index(dx, first_row_ + row + dy);
     const auto width = static_cast<std::size_t>(width_);
     const auto [above, here, below] = across;
     const float* const is_known = planes_.is_known.data() + other;
@@ -287,10 +287,10 @@ void Denoiser::filter(int first_row, int last_row) {
     for (int dx = -search_radius; dx <= search_radius; ++dx) strip.add(dx, dy);
   }
   strip.for_each_mean([&](int x, int y, const std::array<float, 3>& light) {
-    const std::size_t place = shape_.index(x, y);
+    const std::size_t place = layout_.index(x, y);
     if (planes_.variance[place] == 0 || planes_.is_known[place] == 0) return;
     const std::size_t pixel =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width()) +
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(layout_.width()) +
         static_cast<std::size_t>(x);
     for (std::size_t i = 0; i < 3; ++i)
       pixels_[4 * pixel + i] = light[i] * divisor(guides_[pixel], i);

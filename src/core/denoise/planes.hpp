@@ -14,10 +14,10 @@ namespace crt::core {
 /// Planes are wider than the picture by so many pixels on each side.
 inline constexpr int margin_of_planes = 9;
 
-/// A PlaneShape says where pixels are in a plane, of which those of the picture begin at (0, 0).
-class PlaneShape {
+/// A PlaneLayout says where pixels are in a plane, of which those of the picture begin at (0, 0).
+class PlaneLayout {
  public:
-  PlaneShape(int width, int height)
+  PlaneLayout(int width, int height)
       : width_(width), height_(height), stride_(width + 2 * margin_of_planes) {}
 
   int width() const { return width_; }
@@ -42,14 +42,14 @@ using Plane = std::vector<float>;
 
 /// PicturePlanes are all that is known of the pixels. In the margin all is 0.
 struct PicturePlanes {
-  explicit PicturePlanes(const PlaneShape& of) : shape(of) {
+  explicit PicturePlanes(const PlaneLayout& of) : layout(of) {
     for (Plane* const plane :
          {&light[0], &light[1], &light[2], &variance, &albedo[0], &albedo[1], &albedo[2],
           &normal[0], &normal[1], &normal[2], &cover, &nearness, &slope_x, &slope_y, &is_known})
-      plane->resize(shape.size());
+      plane->resize(layout.size());
   }
 
-  PlaneShape shape;
+  PlaneLayout layout;
   std::array<Plane, 3> light;  ///< colours without the albedo
   Plane variance;              ///< of the light, summed over the channels
   std::array<Plane, 3> albedo;

@@ -28,12 +28,12 @@ constexpr double least_height = 1e-3;
 VectorLanes linear_srgb(const Lanes& luminance, const Lanes& x, const Lanes& y) {
   constexpr double least = 1e-3;
   const Lanes per_y = luminance / max(y, lanes_of(least));
-  const Lanes X = x * per_y;
-  const Lanes Z = (1.0 - x - y) * per_y;
+  const Lanes x_stimulus = x * per_y;
+  const Lanes z_stimulus = (1.0 - x - y) * per_y;
   const Lanes none{};
-  return {max(none, 3.2406 * X - 1.5372 * luminance - 0.4986 * Z),
-          max(none, -0.9689 * X + 1.8758 * luminance + 0.0415 * Z),
-          max(none, 0.0557 * X - 0.2040 * luminance + 1.0570 * Z)};
+  return {max(none, 3.2406 * x_stimulus - 1.5372 * luminance - 0.4986 * z_stimulus),
+          max(none, -0.9689 * x_stimulus + 1.8758 * luminance + 0.0415 * z_stimulus),
+          max(none, 0.0557 * x_stimulus - 0.2040 * luminance + 1.0570 * z_stimulus)};
 }
 
 /// Returns the paper's polynomial for a chromaticity in the zenith. Rows are of T^2, T and 1, with
