@@ -261,10 +261,13 @@ check_public_only | complain "Only crt/*.hpp may be seen from here"
 tracked 'src/*.cpp' | xargs -r -d '\n' awk -f tests/house/twins.awk |
   complain "Two functions of a folder have one name"
 
-# Two types of one name in a namespace are two meanings of one symbol, which no linker complains of.
-git grep -hoE '^(class|struct) [A-Z][A-Za-z]*( final)?( :| \{)' -- 'src/core/*.hpp' |
-  awk '{ print $2 }' | sort | uniq -d |
-  complain "Two types of src/core have one name"
+# Two meanings of one name in a namespace are one symbol, and no linker complains of that.
+{
+  git grep -hoE '^(class|struct) [A-Z][A-Za-z]*( final)?( :| \{)' -- 'src/core/*.hpp' |
+    awk '{ print $2 }'
+  git grep -hoE '^inline constexpr [a-z:_0-9]+ [a-z_0-9]+ =' -- 'src/core/*.hpp' |
+    awk '{ print $(NF - 1) }'
+} | sort | uniq -d | complain "Two types or constants of src/core have one name"
 check_umbrella | complain "A public header is missing from crt.hpp"
 tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once' || true; } |
   complain "No #pragma once"

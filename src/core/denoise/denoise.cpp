@@ -134,8 +134,8 @@ class Denoiser {
           for (int dx = -radius; dx <= radius; ++dx) {
             const std::size_t other = layout_.index(x + dx, y + dy);
             if (other == place || planes_.is_known[other] == 0) continue;
-            const float weight =
-                weight_of(std::min(farthest, SurfaceDistance(planes_, dx, dy)(place, other)));
+            const float weight = weight_of(
+                std::min(max_surface_distance, SurfaceDistance(planes_, dx, dy)(place, other)));
             const float light = sum_at(other);
             weights += weight;
             sum += weight * light;
@@ -258,7 +258,8 @@ class Strip {
     float* __restrict const weights = row_weights_.data();
     find_surface_distances(SurfaceDistance(planes_, dx, dy), one, other, width, weights);
     for (std::size_t x = 0; x < width; ++x)
-      weights[x] = std::min(farthest, std::max(weights[x], above[x] + here[x] + below[x]));
+      weights[x] =
+          std::min(max_surface_distance, std::max(weights[x], above[x] + here[x] + below[x]));
     for (std::size_t x = 0; x < width; ++x) weights[x] = is_known[x] * weight_of(weights[x]);
     const std::size_t begin = static_cast<std::size_t>(row) * width;
     float* __restrict const sum = weights_.data() + begin;

@@ -78,7 +78,7 @@ float mean_variance(const PicturePlanes& planes, std::span<const float> own, int
       const std::size_t other = planes.layout.index(x + dx, y + dy);
       const float weight =
           planes.is_known[other] *
-          weight_of(std::min(farthest, SurfaceDistance(planes, dx, dy)(place, other)));
+          weight_of(std::min(max_surface_distance, SurfaceDistance(planes, dx, dy)(place, other)));
       weights += weight;
       sum += weight * own[other];
     }

@@ -111,12 +111,12 @@ class SurfaceDistance {
 };
 
 /// What is as far off as this, or farther, has no weight.
-inline constexpr float farthest = 9;
+inline constexpr float max_surface_distance = 9;
 
 /// Returns a weight that falls from 1 to 0 as a distance grows up to the farthest. It is about
 /// exp(-distance / 2).
 inline float weight_of(float distance) {
-  const float rest = (farthest - distance) * (1 / farthest);
+  const float rest = (max_surface_distance - distance) * (1 / max_surface_distance);
   const float square = rest * rest;
   return square * square;
 }

@@ -42,8 +42,9 @@ class ChosenLights {
 
  private:
   ChosenLights() = default;
-  /// Adds the faces of a leaf, if it gives light off evenly and has a formula for them.
-  void add_surface(const CompiledScene& scene, std::uint32_t leaf,
+  /// Adds the faces of a leaf by its number, if it gives light off evenly and has a formula for
+  /// them.
+  void add_surface(const CompiledScene& scene, std::uint32_t number,
                    std::span<const PreparedMaterial> materials);
 
   std::vector<PreparedLight> lights_;
