@@ -188,10 +188,10 @@ class Strip {
         width_(planes.layout.width()),
         first_row_(first_row),
         rows_(last_row - first_row),
-        distances_(static_cast<std::size_t>((width_ + 2) * (rows_ + 2))),
+        distances_(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(rows_ + 2)),
         across_(distances_.size()),
         row_weights_(static_cast<std::size_t>(width_)),
-        weights_(static_cast<std::size_t>(width_ * rows_)),
+        weights_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(rows_)),
         sums_{Plane(weights_.size()), Plane(weights_.size()), Plane(weights_.size())} {}
 
   /// Adds the pixels that are (dx, dy) away.

@@ -7,7 +7,7 @@ namespace crt::core {
 namespace {
 
 constexpr int radius = 2;  ///< of the pixels that are asked
-constexpr std::size_t most_neighbours = (2 * radius + 1) * (2 * radius + 1);
+constexpr std::size_t most_neighbours = std::size_t{2 * radius + 1} * (2 * radius + 1);
 
 /// Neighbours whose surfaces are as far off as this are not asked.
 constexpr float farthest_surface = 4;
