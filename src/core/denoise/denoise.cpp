@@ -198,7 +198,7 @@ class Strip {
   void add(int dx, int dy) {
     static_assert(patch_radius == 1);
     for (int row = -1; row <= rows_; ++row) compare(row, dx, dy);
-    const auto wide = static_cast<std::size_t>(width_ + 2);
+    const std::size_t wide = std::size_t{2} + static_cast<std::size_t>(width_);
     for (int row = 0; row < rows_; ++row) {
       const float* const above = &across_[static_cast<std::size_t>(row) * wide];
       weigh(row, dx, dy, {above, above + wide, above + 2 * wide});
@@ -228,7 +228,7 @@ class Strip {
     constexpr float pixels_of_patch = 9;
     const std::size_t one = planes_.layout.index(-1, first_row_ + row);
     const std::size_t other = planes_.layout.index(-1 + dx, first_row_ + row + dy);
-    const auto wide = static_cast<std::size_t>(width_ + 2);
+    const std::size_t wide = std::size_t{2} + static_cast<std::size_t>(width_);
     const float* const red = planes_.light[0].data();
     const float* const green = planes_.light[1].data();
     const float* const blue = planes_.light[2].data();
