@@ -9,7 +9,8 @@
 
 namespace crt::core {
 
-/// A PackedDirection is a unit vector to within 2^-14, by its place on an octahedron.
+/// A PackedDirection is a unit vector to within 2^-14, by its place on an octahedron. What has no
+/// direction gets some.
 ///
 /// Source: Cigolle and others, A survey of efficient representations for independent unit vectors,
 /// JCGT 3(2), 2014.
@@ -18,6 +19,7 @@ class PackedDirection {
   PackedDirection() = default;
   explicit PackedDirection(const Vec3& direction) {
     const double size = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+    if (!(size > 0)) return;
     double x = direction.x / size;
     double y = direction.y / size;
     if (direction.z < 0) {
