@@ -40,6 +40,7 @@ withPage('a light is as bright, where the camera looks, as a white light of 1', 
       code.slice(0, code.indexOf('ball =')).replace('Settings {', 'Settings { gamma -> 1') +
       `Scene { Plane { normal -> vec3(${place}) position -> vec3(0, 0, 0)
         material -> Material { color -> rgb(0.5, 0.5, 0.5) } } }`));
+    await settled(page);
     const [value] = await pixelAt(page, 0.5, 0.5);
     assert.ok(Math.abs(value - 127.5) < 10, `${kind}: ${value}`);
   }
