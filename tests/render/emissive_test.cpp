@@ -248,11 +248,5 @@ TEST_CASE("pictures of many lights have the same bytes for any threads and regio
   for (const auto& [name, solid] : solids()) scene.entities.push_back(solid);
   for (int i = 0; i < 40; ++i)
     scene.lights.emplace_back(DiscLight{.center = {0.3 * i - 6, 3, 0}, .radius = 0.1});
-  const PreparedScene prepared = prepare(scene);
-  const Image one = render(prepared, {.threads = 1});
-  CHECK(same_pixels(render(prepared, {.threads = 5}), one));
-  const Image part = render(prepared, {.region = Region{11, 5, 13, 9}});
-  for (int y = 0; y < part.height(); ++y) {
-    for (int x = 0; x < part.width(); ++x) REQUIRE(part.at(x, y) == one.at(11 + x, 5 + y));
-  }
+  check_threads_and_regions(prepare(scene));
 }

@@ -163,11 +163,5 @@ TEST_CASE("pictures of bounced light have the same bytes for any threads and reg
   scene.settings.supersampling = 2;
   scene.settings.indirect = 2;
   scene.lights.emplace_back(EnvironmentLight{.scale = 0.5});
-  const PreparedScene prepared = prepare(scene);
-  const Image one = render(prepared, {.threads = 1});
-  CHECK(same_pixels(render(prepared, {.threads = 5}), one));
-  const Image part = render(prepared, {.region = Region{11, 5, 13, 9}});
-  for (int y = 0; y < part.height(); ++y) {
-    for (int x = 0; x < part.width(); ++x) REQUIRE(part.at(x, y) == one.at(11 + x, 5 + y));
-  }
+  check_threads_and_regions(prepare(scene));
 }

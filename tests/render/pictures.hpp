@@ -1,6 +1,8 @@
 // These are small pictures for tests whose pixels are known by hand.
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <crt/render.hpp>
 
 #include <cstring>
@@ -37,6 +39,16 @@ inline Color seen(const Scene& scene, const Vec3& eye, const Vec3& target) {
 inline bool same_pixels(const Image& a, const Image& b) {
   return a.width() == b.width() && a.height() == b.height() &&
          std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+/// Checks that a picture has the same bytes for any number of threads, and in a part of it.
+inline void check_threads_and_regions(const PreparedScene& scene) {
+  const Image one = render(scene, {.threads = 1});
+  CHECK(same_pixels(render(scene, {.threads = 5}), one));
+  const Image part = render(scene, {.region = Region{11, 5, 13, 9}});
+  for (int y = 0; y < part.height(); ++y) {
+    for (int x = 0; x < part.width(); ++x) REQUIRE(part.at(x, y) == one.at(11 + x, 5 + y));
+  }
 }
 
 /// Makes a light that only has an ambient share. Every surface that mirrors nothing is `level`

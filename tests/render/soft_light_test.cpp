@@ -145,14 +145,7 @@ TEST_CASE("soft pictures have the same bytes for any threads and any regions") {
   scene.entities.push_back(Box{.corner_a = {1, 0, 1}, .corner_b = {2, 1, 2}});
   for (const double target_error : {0.0, 0.05}) {
     scene.settings.target_error = target_error;
-    const PreparedScene prepared = prepare(scene);
-    const Image one = render(prepared, {.threads = 1});
-    CHECK(same_pixels(render(prepared, {.threads = 5}), one));
-    if (target_error > 0) continue;
-    const Image part = render(prepared, {.region = Region{11, 5, 13, 9}});
-    for (int y = 0; y < part.height(); ++y) {
-      for (int x = 0; x < part.width(); ++x) REQUIRE(part.at(x, y) == one.at(11 + x, 5 + y));
-    }
+    check_threads_and_regions(prepare(scene));
   }
 }
 

@@ -107,23 +107,33 @@ inline double sum_of(const Lanes& x) {
   return x[0] + x[1] + (x[2] + x[3]);
 }
 
-/// Returns the share of even light that a surface sends to the viewer: by a sum over directions,
-/// and by what perfect mirrors and clear glass add, whose weights do not depend on chance.
-inline Vec3 albedo(const PrincipledSurface<double>& surface, double cosine) {
+/// Returns what a surface sends to the viewer of light whose radiance depends on its direction's
+/// height: by a sum over directions, and by what perfect mirrors and clear glass add, whose weights
+/// do not depend on chance.
+template <class Radiance>
+inline Vec3 sent_back(const PrincipledSurface<double>& surface, double cosine,
+                      const Radiance& radiance) {
   const Vec3 o = direction(cosine);
   const PrincipledSurface<Lanes> lanes = lanes_of(surface);
   Vec3 sum(0);
   for_all_directions([&](const VectorLanes& i, double solid_angle) {
     const VectorLanes value =
         evaluate<Lanes>(lanes, crt::core::lanes_of(o), crt::core::lanes_of(up), i).value;
-    sum += solid_angle * Vec3(sum_of(value.x), sum_of(value.y), sum_of(value.z));
+    const Lanes light([&](auto lane) { return radiance(double{i.z[lane]}); });
+    sum += solid_angle *
+           Vec3(sum_of(light * value.x), sum_of(light * value.y), sum_of(light * value.z));
   });
   constexpr int choices = 4096;
   for (int k = 0; k < choices; ++k) {
     const auto ray = sample<double>(surface, o, up, {(k + 0.5) / choices, 0.3, 0.6});
-    if (ray.is_delta) sum += ray.weight / double{choices};
+    if (ray.is_delta) sum += radiance(ray.direction.z) * ray.weight / double{choices};
   }
   return sum;
+}
+
+/// Returns the share of even light that a surface sends to the viewer.
+inline Vec3 albedo(const PrincipledSurface<double>& surface, double cosine) {
+  return sent_back(surface, cosine, [](double) { return 1.0; });
 }
 
 inline const std::vector<double> shares = {0, 0.5, 1};

@@ -202,11 +202,9 @@ class Shape {
   /// coincide.
   virtual std::uint32_t face_count() const = 0;
   virtual Surface surface(std::uint32_t face) const = 0;
-  /// Appends all faces in order where a placement puts them, for drawing points of them. Returns
-  /// false, and appends nothing, if it has no formula for that.
-  virtual bool append_pieces(const Placement& /*placement*/, SurfacePieces& /*pieces*/) const {
-    return false;
-  }
+  /// Returns all faces in order, in object space, for drawing points of them, or none if it has no
+  /// formula for that.
+  virtual SurfacePieces pieces() const { return {}; }
 
   /// Returns what its facets have beyond what rays meet, or null. Only meshes may have any.
   virtual const FacetAttributes* facet_attributes() const { return nullptr; }

@@ -1,8 +1,10 @@
-// The surface of a shape in the world is given in pieces, from which points can be drawn.
+// The surface of a shape is given in pieces, from which points can be drawn.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "core/geometry/placement.hpp"
 #include "crt/vec.hpp"
 
 namespace crt::core {
@@ -23,6 +25,9 @@ struct SurfacePiece {
   Vec3 normal{0, 0, 0};  ///< of flat ones: out of the solid, of unit length
   double radius = 0;     ///< of spheres and tubes
 };
+
+/// Returns a piece where a placement puts it, or nothing if a round one is not scaled evenly.
+std::optional<SurfacePiece> placed_piece(const SurfacePiece& piece, const Placement& placement);
 
 using SurfacePieces = std::vector<SurfacePiece>;
 

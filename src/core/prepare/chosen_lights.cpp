@@ -21,6 +21,7 @@ Rgb even_emission(const PreparedMaterial& material) {
 
 std::unique_ptr<const ChosenLights> ChosenLights::of(const CompiledScene& scene,
                                                      std::span<const PreparedMaterial> materials,
+                                                     bool any_emits,
                                                      std::span<const Light> lights) {
   std::unique_ptr<ChosenLights> result(new ChosenLights);
   std::vector<PreparedLight>& chosen = result->lights_;
@@ -30,8 +31,7 @@ std::unique_ptr<const ChosenLights> ChosenLights::of(const CompiledScene& scene,
   }
   result->has_lights_of_scene_ = chosen.size() > max_asked;
   if (!result->has_lights_of_scene_) chosen.clear();
-  if (std::any_of(materials.begin(), materials.end(),
-                  [](const PreparedMaterial& material) { return material.emits; })) {
+  if (any_emits) {
     for (const SceneObject& object : scene.objects) {
       if (!object.is_csg() && !object.is_instance())
         result->add_surface(scene, object.first_leaf, materials);
@@ -54,8 +54,13 @@ void ChosenLights::add_surface(const CompiledScene& scene, std::uint32_t number,
   if (leaf.face_count > max_faces || leaf.complemented ||
       std::none_of(of_leaf.begin(), of_leaf.end(), shines))
     return;
-  SurfacePieces pieces;
-  if (!leaf.shape->append_pieces(*leaf.placement, pieces)) return;
+  SurfacePieces pieces = leaf.shape->pieces();
+  for (SurfacePiece& piece : pieces) {
+    const std::optional<SurfacePiece> placed = placed_piece(piece, *leaf.placement);
+    if (!placed) return;
+    piece = *placed;
+  }
+  if (pieces.empty()) return;
   if (of_leaves_.empty()) of_leaves_.assign(scene.leaves.size(), invalid_index);
   of_leaves_[number] = static_cast<std::uint32_t>(lights_.size());
   for (std::uint32_t face = 0; face < pieces.size(); ++face) {

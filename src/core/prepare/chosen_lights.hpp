@@ -19,10 +19,11 @@ class ChosenLights {
  public:
   static constexpr std::size_t max_asked = 16;
 
-  /// Returns those of a scene, or null if there are none.
+  /// Returns those of a scene, or null if there are none. `any_emits` says whether a material gives
+  /// light off.
   static std::unique_ptr<const ChosenLights> of(const CompiledScene& scene,
                                                 std::span<const PreparedMaterial> materials,
-                                                std::span<const Light> lights);
+                                                bool any_emits, std::span<const Light> lights);
 
   const std::vector<PreparedLight>& lights() const { return lights_; }
   const LightTree& tree() const { return *tree_; }

@@ -44,19 +44,17 @@ bool is_environment(const Light& light) {
 }
 
 /// Adds a sky that shines to the lights.
-void add_sky(const Background& background, std::vector<Light>& lights) {
-  const auto* given = std::get_if<SkyBackground>(&background);
-  if (given == nullptr || !given->shines) return;
+void add_sky(const Background& background, const Sky* sky, std::vector<Light>& lights) {
+  if (sky == nullptr || !std::get<SkyBackground>(background).shines) return;
   if (std::none_of(lights.begin(), lights.end(), is_environment))
     lights.emplace_back(EnvironmentLight{});
-  const Sky sky(*given);
-  if (sky.has_sun()) lights.emplace_back(sky.sunlight());
+  if (sky->has_sun()) lights.emplace_back(sky->sunlight());
 }
 
 /// Returns the lights of a scene, or a head light where nothing gives light off and it is wanted.
-std::vector<Light> lights_of(const Scene& scene, bool emits) {
+std::vector<Light> lights_of(const Scene& scene, const Sky* sky, bool emits) {
   std::vector<Light> lights = scene.lights;
-  add_sky(scene.background, lights);
+  add_sky(scene.background, sky, lights);
   if (!lights.empty() || emits || !scene.settings.head_light || scene.settings.compat != 0)
     return lights;
   if (scene.camera.projection == Projection::orthographic)
@@ -167,11 +165,11 @@ PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
   }
   const bool emits = std::any_of(materials_.begin(), materials_.end(),
                                  [](const PreparedMaterial& material) { return material.emits; });
-  scene_.lights = lights_of(scene, emits);
-  chosen_lights_ = ChosenLights::of(*compiled_, materials_, scene_.lights);
-  opacity_ = opacity_of(accelerator_->compiled(), materials_);
   background_ =
       std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
+  scene_.lights = lights_of(scene, background_->sky(), emits);
+  chosen_lights_ = ChosenLights::of(*compiled_, materials_, emits, scene_.lights);
+  opacity_ = opacity_of(accelerator_->compiled(), materials_);
   if (std::any_of(scene_.lights.begin(), scene_.lights.end(), is_environment))
     environment_ = std::make_unique<Environment>(*background_);
   textures_.settle();

@@ -75,9 +75,12 @@ struct PathRays {
                         static_cast<std::uint32_t>(sample);
       decisions[lane] = {static_cast<std::uint32_t>(works[ray]->rays), kind};
     }
-    const bool lens_is_free =
-        are_from_camera() && samples == 1 && frame.takes_numbers_of_lens(kind);
-    return sample_numbers(frame.settings().seed, ids, decisions, lens_is_free);
+    const std::uint64_t seed = frame.settings().seed;
+    if (!are_from_camera() || samples > 1 || !frame.takes_numbers_of_lens(kind))
+      return sample_numbers(seed, ids, decisions);
+    const auto [u, v] = numbers_of_lens(seed, ids);
+    if (kind != SampleDecision::chosen_light) return {u, v};
+    return {u, v, sample_numbers(seed, ids, decisions)[2]};
   }
   /// Returns those that come after a diffuse bounce.
   RayMask after_diffuse() const {

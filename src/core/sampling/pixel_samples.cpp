@@ -93,16 +93,25 @@ Lanes PixelSamples::mean(const SampleCount& count) const {
   return count.samples_.divide(sum);
 }
 
-Lanes PixelSamples::variance(const SampleCount& count) const {
+inline Lanes PixelSamples::sum_of(std::size_t blocks) const {
   Lanes sum{};
-  for (std::size_t b = 0; b < count.blocks_; ++b) sum += to_doubles(blocks_[b]);
+  for (std::size_t b = 0; b < blocks; ++b) sum += to_doubles(blocks_[b]);
+  return sum;
+}
+
+inline Lanes PixelSamples::variance_of(std::size_t blocks, const Lanes& sum,
+                                       const SampleCount& count) const {
   const Lanes middle = count.full_blocks_.divide(sum);
   Lanes squares{};
-  for (std::size_t b = 0; b < count.blocks_; ++b) {
+  for (std::size_t b = 0; b < blocks; ++b) {
     const Lanes distance = to_doubles(blocks_[b]) - middle;
     squares += distance * distance;
   }
   return squares / count.variance_divisor_;
+}
+
+Lanes PixelSamples::variance(const SampleCount& count) const {
+  return variance_of(count.blocks_, sum_of(count.blocks_), count);
 }
 
 template <class Self, class Use>
@@ -148,21 +157,15 @@ MeanInterval PixelSamples::interval(const SampleCount& count) const {
   if (blocks < 2) return {.least_shown = 1};
   const Channels low = has_statistics_ ? min(low_, low_around_) : low_;
   const Channels high = has_statistics_ ? max(high_, high_around_) : high_;
-  Lanes sum{};
-  for (std::size_t b = 0; b < blocks; ++b) sum += to_doubles(blocks_[b]);
-  const Lanes middle = count.full_blocks_.divide(sum);
-  for (std::size_t b = blocks; b < block_count; ++b) sum += to_doubles(blocks_[b]);
-  const Lanes means = count.samples_.divide(sum);
+  const Lanes sum = sum_of(blocks);
+  Lanes whole = sum;
+  for (std::size_t b = blocks; b < block_count; ++b) whole += to_doubles(blocks_[b]);
+  const Lanes means = count.samples_.divide(whole);
   // A NaN sample is neither the lowest nor the highest, but leaves the largest mean there is.
   const bool sees_one_colour = all_equal(low, high) && all(means <= 2 * to_doubles(high));
   if (!edge_ && !mixed_ && sees_one_colour) return {};
 
-  Lanes squares{};
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const Lanes distance = to_doubles(blocks_[b]) - middle;
-    squares += distance * distance;
-  }
-  const Lanes variance = squares / count.variance_divisor_;
+  const Lanes variance = variance_of(blocks, sum, count);
   const double overlooked_around =
       mixed_ ? count.overlooked_share_ : count.overlooked_share_of_neighbours_;
   const Lanes overlooked = max(count.overlooked_share_ * (to_doubles(high_) - to_doubles(low_)),

@@ -209,6 +209,10 @@ class PixelSamples {
   /// Returns the exponent of the power of two of samples that a block has. `count` is at least 1.
   static int block_exponent(std::int64_t count);
   void merge_blocks();
+  /// Returns the sum of so many full blocks.
+  Lanes sum_of(std::size_t blocks) const;
+  /// Returns the variances of the means, from the full blocks and their sum.
+  Lanes variance_of(std::size_t blocks, const Lanes& sum, const SampleCount& count) const;
   /// Computes the interval for a fixed number of full blocks, or with 0 for any number.
   template <std::size_t full_blocks>
   MeanInterval interval(const SampleCount& count) const;

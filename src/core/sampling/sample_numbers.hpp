@@ -28,11 +28,10 @@ struct SampleDecision {
 };
 
 /// Returns the numbers by which as many samples decide as there are lanes. The samples of a pixel
-/// get each number distributed evenly over [0, 1). With `lens_is_free` the first two are the lens's
-/// numbers, which are distributed evenly together with the place on the pixel.
+/// get each number distributed evenly over [0, 1).
 inline std::array<Lanes, sequence_dimensions> sample_numbers(
     std::uint64_t seed, const std::array<SampleId, lane_count>& samples,
-    const std::array<SampleDecision, lane_count>& decisions, bool lens_is_free = false) {
+    const std::array<SampleDecision, lane_count>& decisions) {
   std::array<PixelSequence::Decision, lane_count> each;
   for (std::size_t i = 0; i < lane_count; ++i) {
     const auto& [ray, kind] = decisions[i];
@@ -41,13 +40,22 @@ inline std::array<Lanes, sequence_dimensions> sample_numbers(
                .index = samples[i].index,
                .decision = ray * SampleDecision::max_kinds + kind};
   }
-  auto numbers = PixelSequence::numbers_of_each(seed, each);
-  if (!lens_is_free) return numbers;
-  for (PixelSequence::Decision& decision : each) decision.decision = PixelSequence::place_and_lens;
-  const auto of_pixel = PixelSequence::numbers_of_each(seed, each);
-  numbers[0] = of_pixel[2];
-  numbers[1] = of_pixel[3];
-  return numbers;
+  return PixelSequence::numbers_of_each(seed, each);
+}
+
+/// Returns the numbers of samples for the lens, which are distributed evenly together with the
+/// place on the pixel.
+inline std::array<Lanes, 2> numbers_of_lens(std::uint64_t seed,
+                                            const std::array<SampleId, lane_count>& samples) {
+  std::array<PixelSequence::Decision, lane_count> each;
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    each[i] = {.x = samples[i].x,
+               .y = samples[i].y,
+               .index = samples[i].index,
+               .decision = PixelSequence::place_and_lens};
+  }
+  const auto [place_u, place_v, u, v] = PixelSequence::numbers_of_each(seed, each);
+  return {u, v};
 }
 
 }  // namespace crt::core

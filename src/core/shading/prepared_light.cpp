@@ -61,10 +61,13 @@ PreparedLight::PreparedLight(const SurfacePiece& piece, const Rgb& radiance, boo
       kind_ = Kind::triangle;
       set_flat(piece.normal, parallelogram / 2);
       break;
-    case SurfacePiece::Kind::tube:
+    case SurfacePiece::Kind::tube: {
       kind_ = Kind::tube;
-      axis_ = direction_and_length(edge_a_).direction;
+      const auto [direction, length] = direction_and_length(edge_a_);
+      axis_ = direction;
+      area_over_pi_ = 2 / std::numbers::pi * radius_ * length;
       break;
+    }
   }
 }
 
@@ -82,8 +85,8 @@ void PreparedLight::set_rectangle_around(double area) {
   const double across = glm::dot(edge_b_, y);
   std::array<double, 4> along = {0, length, skew, length + skew};
   if (kind_ == Kind::triangle) along[3] = 0;
-  auto [left, right] = std::minmax_element(along.begin(), along.end());
-  double bottom = std::min(0.0, across);
+  const auto [left, right] = std::minmax_element(along.begin(), along.end());
+  const double bottom = std::min(0.0, across);
   RectangleFrame frame{
       .x = x, .y = y, .z = axis_, .width = *right - *left, .height = std::abs(across)};
   Vec3 corner = origin_ + *left * x + bottom * y;
@@ -232,7 +235,6 @@ LightExtent PreparedLight::extent() const {
       const Vec3 extents = ellipse_extents(radius_ * frame.x, radius_ * frame.y);
       extent.bounds.include_around(origin_, extents);
       extent.bounds.include_around(origin_ + edge_a_, extents);
-      area = 2 * radius_ * glm::length(edge_a_);
       break;
     }
     default:

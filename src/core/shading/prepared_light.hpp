@@ -140,6 +140,8 @@ class PreparedLight {
                    LightSamples& light) const;
   void sample_flat(const VectorLanes& points, const VectorLanes& on_light,
                    LightSamples& light) const;
+  /// Returns places of a flat light, spread evenly over its area.
+  VectorLanes places(const LightNumbers& numbers) const;
   void sample_tube(const VectorLanes& points, const LightNumbers& numbers,
                    LightSamples& light) const;
   /// Replaces the samples of points that a flat light is near to. They are drawn evenly over the
@@ -158,8 +160,6 @@ class PreparedLight {
     Lanes half_angles{};
   };
   TubeView view_of_tube(const VectorLanes& points) const;
-  /// Returns the area of what is seen of the tube, over pi.
-  Lanes tube_area_over_pi(const TubeView& view) const;
   void set_flat(const Vec3& normal, double area);
   void set_rectangle_around(double area);
   LightMet meet_sphere(const RayLanes& lines) const;
@@ -181,7 +181,7 @@ class PreparedLight {
   bool is_found_by_rays_ = false;
   bool is_two_sided_ = false;
   const Environment* environment_ = nullptr;
-  double area_over_pi_ = 0;  ///< of a flat light
+  double area_over_pi_ = 0;  ///< of a flat light; of a tube that which is seen from afar
   Vec3 edge_a_{0, 0, 0};     ///< of a disc these are half axes
   Vec3 edge_b_{0, 0, 0};
   std::optional<RectangleFrame> around_;  ///< a rectangle around a flat light, if it fits well

@@ -71,27 +71,12 @@ LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_leng
       light.colors = lanes_of(color_) * light.colors;
       light.distances = infinity;
       return light.distances > 0.0;
-    case Kind::disc: {
-      const auto [x, y] = point_of_disc(numbers.u, numbers.v);
-      sample_flat(points, lanes_of(origin_) + x * lanes_of(edge_a_) + y * lanes_of(edge_b_), light);
-      sample_near(points, numbers, light);
-      break;
-    }
+    case Kind::disc:
     case Kind::rectangle:
-      sample_flat(points,
-                  lanes_of(origin_) + numbers.u * lanes_of(edge_a_) + numbers.v * lanes_of(edge_b_),
-                  light);
+    case Kind::triangle:
+      sample_flat(points, places(numbers), light);
       sample_near(points, numbers, light);
       break;
-    case Kind::triangle: {
-      // Source: Turk, Generating random points in triangles, Graphics Gems, 1990.
-      const Lanes root = sqrt(numbers.u);
-      const Lanes b = 1.0 - root;
-      const Lanes c = numbers.v * root;
-      sample_flat(points, lanes_of(origin_) + b * lanes_of(edge_a_) + c * lanes_of(edge_b_), light);
-      sample_near(points, numbers, light);
-      break;
-    }
     case Kind::tube:
       sample_tube(points, numbers, light);
       break;
@@ -148,6 +133,22 @@ void PreparedLight::sample_flat(const VectorLanes& points, const VectorLanes& on
   sample_area(points, on_light, lanes_of(axis_), lanes_of(area_over_pi_), light);
 }
 
+VectorLanes PreparedLight::places(const LightNumbers& numbers) const {
+  Lanes a = numbers.u;
+  Lanes b = numbers.v;
+  if (kind_ == Kind::disc) {
+    const auto [x, y] = point_of_disc(numbers.u, numbers.v);
+    a = x;
+    b = y;
+  } else if (kind_ == Kind::triangle) {
+    // Source: Turk, Generating random points in triangles, Graphics Gems, 1990.
+    const Lanes root = sqrt(numbers.u);
+    a = 1.0 - root;
+    b = numbers.v * root;
+  }
+  return lanes_of(origin_) + a * lanes_of(edge_a_) + b * lanes_of(edge_b_);
+}
+
 LaneMask PreparedLight::are_near(const VectorLanes& points) const {
   if (!around_) return LaneMask{};
   constexpr double flattest = 0x1p-20;  // Nearer to its plane it is hardly seen.
@@ -196,12 +197,8 @@ void PreparedLight::sample_tube(const VectorLanes& points, const LightNumbers& n
       (1.0 - 2.0 * sine * sine) * view.outwards + (2.0 * sine * cosine) * view.across;
   const VectorLanes on_light =
       lanes_of(origin_) + numbers.v * lanes_of(edge_a_) + radius_ * normals;
-  sample_area(points, on_light, normals, tube_area_over_pi(view), light);
+  sample_area(points, on_light, normals, area_over_pi_ * view.half_angles, light);
   light.radii = lanes_of(radius_);
-}
-
-Lanes PreparedLight::tube_area_over_pi(const TubeView& view) const {
-  return (2 / std::numbers::pi * radius_ * glm::length(edge_a_)) * view.half_angles;
 }
 
 Lanes PreparedLight::densities(const RayLanes& lines, const Lanes& t) const {
@@ -217,7 +214,8 @@ Lanes PreparedLight::densities(const RayLanes& lines, const Lanes& t) const {
       const VectorLanes axis = lanes_of(axis_);
       const VectorLanes place = lines.at(t) - lanes_of(origin_);
       const VectorLanes normals = (1 / radius_) * (place - dot(place, axis) * axis);
-      sample_area(points, lines.at(t), normals, tube_area_over_pi(view_of_tube(points)), light);
+      sample_area(points, lines.at(t), normals, area_over_pi_ * view_of_tube(points).half_angles,
+                  light);
       break;
     }
     default:

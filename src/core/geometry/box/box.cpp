@@ -185,23 +185,20 @@ template void BoxShape::write_point<double>(const Vec3&, const Vec3&, std::uint3
 template void BoxShape::write_point<Lanes>(const VectorLanes&, const VectorLanes&, std::uint32_t,
                                            bool, SurfacePointLanes&) const;
 
-bool BoxShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
+SurfacePieces BoxShape::pieces() const {
+  SurfacePieces pieces;
   for (const PlaneFace& face : faces_) {
     const int axis = face.axis();
-    Vec3 corner = lower_;
-    corner[axis] = face.position()[axis];
-    std::array<Vec3, 2> edges = {Vec3(0), Vec3(0)};
-    for (int i = 0; i < 2; ++i) {
-      const int along = (axis + 1 + i) % 3;
-      edges[static_cast<std::size_t>(i)][along] = upper_[along] - lower_[along];
-    }
-    pieces.push_back({.kind = SurfacePiece::Kind::parallelogram,
-                      .origin = placement.point_to_world(corner),
-                      .edge_a = placement.direction_to_world(edges[0]),
-                      .edge_b = placement.direction_to_world(edges[1]),
-                      .normal = placement.normal_to_world(face.unit_normal())});
+    SurfacePiece piece{
+        .kind = SurfacePiece::Kind::parallelogram, .origin = lower_, .normal = face.unit_normal()};
+    piece.origin[axis] = face.position()[axis];
+    const int along_a = (axis + 1) % 3;
+    const int along_b = (axis + 2) % 3;
+    piece.edge_a[along_a] = upper_[along_a] - lower_[along_a];
+    piece.edge_b[along_b] = upper_[along_b] - lower_[along_b];
+    pieces.push_back(piece);
   }
-  return true;
+  return pieces;
 }
 
 std::unique_ptr<const Shape> make_shape(const Box& box) {

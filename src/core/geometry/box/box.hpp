@@ -41,7 +41,7 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
                    bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const override { return 6; }
   Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
-  bool append_pieces(const Placement& placement, SurfacePieces& pieces) const override;
+  SurfacePieces pieces() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

@@ -42,13 +42,12 @@ void DiscShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std
   if (with_uv) set_polar(relative, frame_, radius_, point);
 }
 
-bool DiscShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
-  pieces.push_back({.kind = SurfacePiece::Kind::disc,
-                    .origin = placement.point_to_world(face_.position()),
-                    .edge_a = placement.direction_to_world(radius_ * frame_.zero),
-                    .edge_b = placement.direction_to_world(radius_ * frame_.quarter),
-                    .normal = placement.normal_to_world(frame_.along)});
-  return true;
+SurfacePieces DiscShape::pieces() const {
+  return {{.kind = SurfacePiece::Kind::disc,
+           .origin = face_.position(),
+           .edge_a = radius_ * frame_.zero,
+           .edge_b = radius_ * frame_.quarter,
+           .normal = frame_.along}};
 }
 
 std::unique_ptr<const Shape> make_shape(const Disc& disc) {

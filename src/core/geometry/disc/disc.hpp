@@ -24,7 +24,7 @@ class DiscShape final : public ShapeOfPoints<DiscShape> {
                    bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return face_.surface(); }
-  bool append_pieces(const Placement& placement, SurfacePieces& pieces) const override;
+  SurfacePieces pieces() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

@@ -31,22 +31,19 @@ FrustumShape::FrustumShape(const Vec3& from, const Vec3& to, double from_radius,
   }
 }
 
-bool FrustumShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
-  const double scale = placement.even_scale();
-  if (radii_[0] != radii_[1] || scale == 0) return false;
+SurfacePieces FrustumShape::pieces() const {
+  if (radii_[0] != radii_[1]) return {};
   const double radius = radii_[0];
-  pieces.push_back({.kind = SurfacePiece::Kind::tube,
-                    .origin = placement.point_to_world(from_),
-                    .edge_a = placement.direction_to_world(to_ - from_),
-                    .radius = scale * radius});
+  SurfacePieces pieces = {
+      {.kind = SurfacePiece::Kind::tube, .origin = from_, .edge_a = to_ - from_, .radius = radius}};
   for (const std::optional<PlaneFace>& cap : caps_) {
     pieces.push_back({.kind = SurfacePiece::Kind::disc,
-                      .origin = placement.point_to_world(cap->position()),
-                      .edge_a = placement.direction_to_world(radius * frame_.zero),
-                      .edge_b = placement.direction_to_world(radius * frame_.quarter),
-                      .normal = placement.normal_to_world(cap->unit_normal())});
+                      .origin = cap->position(),
+                      .edge_a = radius * frame_.zero,
+                      .edge_b = radius * frame_.quarter,
+                      .normal = cap->unit_normal()});
   }
-  return true;
+  return pieces;
 }
 
 Bounds FrustumShape::bounds() const {

@@ -73,7 +73,7 @@ class FrustumShape : public ShapeOfSpans<FrustumShape> {
                    bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const final { return caps_[1] ? 3 : 2; }
   Surface surface(std::uint32_t face) const final;
-  bool append_pieces(const Placement& placement, SurfacePieces& pieces) const final;
+  SurfacePieces pieces() const final;
   std::size_t bytes() const override { return sizeof *this; }
 
   static constexpr std::uint32_t side_face = 0;

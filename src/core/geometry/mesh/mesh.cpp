@@ -26,10 +26,12 @@ Surface MeshShape::surface(std::uint32_t face) const {
   return surface;
 }
 
-bool MeshShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
+SurfacePieces MeshShape::pieces() const {
+  SurfacePieces pieces;
+  pieces.reserve(face_count());
   for (std::uint32_t face = 0; face < face_count(); ++face)
-    facet(face).append_pieces(placement, pieces);
-  return true;
+    pieces.push_back(facet(face).pieces().front());
+  return pieces;
 }
 
 const FacetAttributes* facet_attributes(const Primitive& primitive) {

@@ -46,7 +46,7 @@ class MeshShape final : public Shape {
                                const Vec3& normal) const override;
   std::uint32_t face_count() const override { return triangles_->size(); }
   Surface surface(std::uint32_t face) const override;
-  bool append_pieces(const Placement& placement, SurfacePieces& pieces) const override;
+  SurfacePieces pieces() const override;
   const FacetAttributes* facet_attributes() const override { return triangles_->attributes(); }
   const MeshTriangles& triangles() const { return *triangles_; }
   /// Returns only its own bytes and those of the triangles, which others may share.

@@ -107,13 +107,8 @@ Surface SphereShape::surface(std::uint32_t) const {
   return {.kind = SurfaceKind::sphere, .position = center_ + Vec3(0.0), .sizes = {radius_, 0}};
 }
 
-bool SphereShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
-  const double scale = placement.even_scale();
-  if (scale == 0) return false;
-  pieces.push_back({.kind = SurfacePiece::Kind::sphere,
-                    .origin = placement.point_to_world(center_),
-                    .radius = scale * radius_});
-  return true;
+SurfacePieces SphereShape::pieces() const {
+  return {{.kind = SurfacePiece::Kind::sphere, .origin = center_, .radius = radius_}};
 }
 
 std::unique_ptr<const Shape> make_shape(const Sphere& sphere) {

@@ -130,7 +130,7 @@ class SphereShape final : public ShapeOfSpans<SphereShape> {
                       const Lanes& t, bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
-  bool append_pieces(const Placement& placement, SurfacePieces& pieces) const override;
+  SurfacePieces pieces() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

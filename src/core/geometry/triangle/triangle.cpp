@@ -208,13 +208,12 @@ void validate(const Triangle& triangle) {
     reject("c", "must not be on a line with a and b (the triangle has no area)");
 }
 
-bool TriangleShape::append_pieces(const Placement& placement, SurfacePieces& pieces) const {
-  pieces.push_back({.kind = SurfacePiece::Kind::triangle,
-                    .origin = placement.point_to_world(corners_[0]),
-                    .edge_a = placement.direction_to_world(corners_[1] - corners_[0]),
-                    .edge_b = placement.direction_to_world(corners_[2] - corners_[0]),
-                    .normal = placement.normal_to_world(face_.unit_normal())});
-  return true;
+SurfacePieces TriangleShape::pieces() const {
+  return {{.kind = SurfacePiece::Kind::triangle,
+           .origin = corners_[0],
+           .edge_a = corners_[1] - corners_[0],
+           .edge_b = corners_[2] - corners_[0],
+           .normal = face_.unit_normal()}};
 }
 
 std::unique_ptr<const Shape> make_shape(const Triangle& triangle) {
