@@ -129,6 +129,38 @@ TEST_CASE("a light is seen as what it is, in mirrors too, unless it is not visib
   CHECK(middle(scene) == Color{1.5, 1, 0.5});
 }
 
+TEST_CASE("a light is in nobody's way, whether rays find it or not") {
+  // A panel is close to a ceiling, before another light. Surfaces get light from both, and what
+  // bounces off the ceiling, as if no ray met the panel.
+  Scene scene = floor_scene();
+  scene.settings.indirect = 2;
+  scene.background = SolidBackground{.color = {0.25, 0.25, 0.25}};
+  scene.entities.push_back(Box{.corner_a = {-2, 1.5, -2},
+                               .corner_b = {2, 1.7, 2},
+                               .material = Material{.color = Color{0.8, 0.8, 0.8}}});
+  const auto brightness = [&](bool visible) {
+    scene.lights = {
+        RectangleLight{.corner = {-0.8, 1.2, -0.8},
+                       .edge_a = {1.6, 0, 0},
+                       .edge_b = {0, 0, 1.6},
+                       .color = {2, 2, 2},
+                       .visible = visible,
+                       .two_sided = true},
+        SphereLight{
+            .center = {0, 1.35, 0}, .radius = 0.1, .color = {40, 40, 40}, .visible = visible},
+        EnvironmentLight{}};
+    return brightness_at(scene, {0.3, 0, 0.2}, 1 << 16);
+  };
+  SUBCASE("matt") {}
+  SUBCASE("a rough metal") {
+    scene.entities.front() = Plane{
+        .normal = {0, 1, 0},
+        .position = {0, 0, 0},
+        .material = PrincipledMaterial{.color = Color{1, 1, 1}, .metallic = 1, .roughness = 0.4}};
+  }
+  CHECK(brightness(true) == doctest::Approx(brightness(false)).epsilon(4e-3));
+}
+
 TEST_CASE("soft pictures have the same bytes for any threads and any regions") {
   Scene scene = floor_scene();
   scene.settings.width = 37;

@@ -47,31 +47,30 @@ PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits)
 }
 
 void meet_lights(const TraceContext& context, const PathRays& rays, PathHits& hits) {
-  const std::vector<PreparedLight>& lights = context.frame.lights();
-  for (std::uint32_t number = 0; number < lights.size(); ++number) {
-    if (!lights[number].is_visible()) continue;
-    RayPacket::for_each_group(rays.all(), [&](std::size_t group, RayMask lanes) {
-      const LightMet light = lights[number].meet(rays.batch.lines[group]);
-      for_each_ray(lanes & mask_of(light.met), [&](std::size_t lane) {
-        const std::size_t ray = group * lane_count + lane;
-        if (!(light.t[lane] < hits.hits[ray].t)) return;
-        hits.hits[ray] = {.t = light.t[lane]};
-        hits.lights[ray] = number;
-        hits.on_light |= RayMask{1} << ray;
-      });
-    });
-  }
+  for_each_light_met(context, rays, rays.all() & ~rays.drawn(), hits,
+                     [&](std::uint32_t number, std::size_t group, RayMask lanes, const Lanes& t) {
+                       for_each_ray(lanes, [&](std::size_t lane) {
+                         const std::size_t ray = group * lane_count + lane;
+                         hits.hits[ray] = {.t = t[lane]};
+                         hits.lights[ray] = number;
+                         hits.on_light |= RayMask{1} << ray;
+                       });
+                     });
   hits.found &= ~hits.on_light;
+}
+
+Rgb weight_after(const TraceContext& context, const PathRays& rays, std::size_t i, double t) {
+  const Rgb weight = rays.weights[i / lane_count].lane(i % lane_count);
+  if (rays.states[i].media == MediaLists::empty) return weight;
+  const Medium& medium = rays.works[i]->media.innermost(rays.states[i].media);
+  return weight * transmittance(context.data.materials()[medium.material], t);
 }
 
 void absorb(const TraceContext& context, PathRays& rays, PathHits& hits) {
   if (!context.data.features().absorption) return;
   for_each_ray(rays.in_media(), [&](std::size_t i) {
-    const Medium& medium = rays.works[i]->media.innermost(rays.states[i].media);
-    VectorLanes& weights = rays.weights[i / lane_count];
-    const Rgb left = weights.lane(i % lane_count) *
-                     transmittance(context.data.materials()[medium.material], hits.hits[i].t);
-    weights.set(i % lane_count, left);
+    const Rgb left = weight_after(context, rays, i, hits.hits[i].t);
+    rays.weights[i / lane_count].set(i % lane_count, left);
     if (is_black(left)) hits.seen &= ~(RayMask{1} << i);
   });
 }

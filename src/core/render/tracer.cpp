@@ -78,19 +78,35 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
   add(rays.samples, light);
 }
 
-/// Adds lights that rays meet.
+/// Adds the lights that rays end at.
 void add_visible_lights(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
   PathLight light{.rays = hits.seen & hits.on_light, .colors = {}};
   for_each_ray(light.rays, [&](std::size_t i) {
-    const PreparedLight& source = context.frame.lights()[hits.lights[i]];
+    const Rgb color = context.frame.lights()[hits.lights[i]].color();
     const std::size_t group = i / lane_count;
-    const Lanes share =
-        shares_of_rays(context, rays, group, source, context.frame.number_of_chosen(hits.lights[i]),
-                       lanes_of(hits.hits[i].t));
-    light.colors[group].set(
-        i % lane_count,
-        share[i % lane_count] * (rays.weights[group].lane(i % lane_count) * source.color()));
+    light.colors[group].set(i % lane_count, rays.weights[group].lane(i % lane_count) * color);
   });
+  clamp_bounced(context, rays, light);
+  add(rays.samples, light);
+}
+
+/// Adds the lights that drawn rays find on their way. `hits` are those of the surfaces behind.
+void add_lights_on_way(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
+  PathLight light{};
+  for_each_light_met(
+      context, rays, rays.drawn(), hits,
+      [&](std::uint32_t number, std::size_t group, RayMask lanes, const Lanes& t) {
+        const PreparedLight& source = context.frame.lights()[number];
+        const Lanes shares =
+            shares_of_rays(context, rays, group, source, context.frame.number_of_chosen(number), t);
+        for_each_ray(lanes, [&](std::size_t lane) {
+          const std::size_t ray = group * lane_count + lane;
+          const Rgb weight = weight_after(context, rays, ray, t[lane]);
+          light.colors[group].set(
+              lane, light.colors[group].lane(lane) + shares[lane] * (weight * source.color()));
+          light.rays |= RayMask{1} << ray;
+        });
+      });
   clamp_bounced(context, rays, light);
   add(rays.samples, light);
 }
@@ -130,7 +146,10 @@ void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samp
   PathRays* next = &rays_[1];
   while (!rays->empty()) {
     PathHits& hits = intersect(context_, *rays, hits_);
-    if (context_.frame.shows_lights()) meet_lights(context_, *rays, hits);
+    if (context_.frame.shows_lights()) {
+      add_lights_on_way(context_, *rays, hits);
+      meet_lights(context_, *rays, hits);
+    }
     absorb(context_, *rays, hits);
     const Surfaces& surfaces = surfaces_of(context_, *rays, hits, !first_hits.empty(), surfaces_);
     report(*rays, hits, surfaces, std::exchange(first_hits, {}));
