@@ -1,11 +1,14 @@
 // A placement is where a primitive's object space lies in the world.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 
 #include "core/geometry/bounds.hpp"
 #include "core/geometry/exact_ray.hpp"
+#include "core/math/interval.hpp"
 #include "core/math/lanes.hpp"
 #include "core/math/precise_transform.hpp"
 #include "core/ray/object_ray.hpp"
@@ -60,6 +63,23 @@ class Placement {
   // A Vector is a Vec3, or VectorLanes.
 
   Vec3 point_to_object(const Vec3& world) const;
+  /// Returns a place of the world, of any kind of numbers (face_functions.hpp), in object space.
+  template <class Number>
+  std::array<Number, 3> to_object(const std::array<Number, 3>& world) const {
+    if (kind_ == Kind::identity) return world;
+    std::array<Number, 3> moved = world;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double by = to_world_.translation[static_cast<int>(i)];
+      if (by != 0) moved[i] = world[i] - Interval::of(by);
+    }
+    if (kind_ == Kind::translation) return moved;
+    std::array<Number, 3> object = moved;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto row = enclosed_row(i);
+      object[i] = moved[0] * row[0] + moved[1] * row[1] + moved[2] * row[2];
+    }
+    return object;
+  }
   template <class Vector>
   Vector point_to_world(const Vector& object) const;
   /// Returns a point in the world to the last bit, or nothing if doubles do not hold it or the map
@@ -93,6 +113,17 @@ class Placement {
                       PreciseVec3& world_normal, DoubleDouble& world_offset) const;
 
  private:
+  /// Returns a row of the linear part of the inverse map, enclosed.
+  std::array<Interval, 3> enclosed_row(std::size_t row) const {
+    const auto enclosed = [&](const DoubleDouble& entry) {
+      const double off = vector_error_ + 0x1p-52 * std::abs(entry.hi);
+      return entry.hi == 0 && entry.lo == 0 && vector_error_ == 0
+                 ? Interval{0, 0}
+                 : Interval{sum_down(entry.hi - off), sum_up(entry.hi + off)};
+    };
+    const PreciseVec3& entries = to_object_.rows[row];
+    return {enclosed(entries[0]), enclosed(entries[1]), enclosed(entries[2])};
+  }
   void take_inverse(const PreciseTransform& inverse);
   double inverse_error() const;
   double inverse_size() const;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/geometry/bounds.hpp"
+#include "core/geometry/face_functions.hpp"
 #include "core/geometry/placed_solid.hpp"
 #include "core/geometry/shape_span.hpp"
 #include "core/geometry/surface.hpp"
@@ -205,6 +206,9 @@ class Shape {
   /// Returns all faces in order, in object space, for drawing points of them, or none if it has no
   /// formula for that.
   virtual SurfacePieces pieces() const { return {}; }
+  /// Returns the functions of its faces, for questions about whole boxes, or null if it has no
+  /// formulas for them.
+  virtual std::unique_ptr<const FaceFunctions> face_functions() const { return nullptr; }
 
   /// Returns what its facets have beyond what rays meet, or null. Only meshes may have any.
   virtual const FacetAttributes* facet_attributes() const { return nullptr; }

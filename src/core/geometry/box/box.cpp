@@ -5,6 +5,8 @@
 #include "core/geometry/box/enclose_turned.hpp"
 #include "core/math/vector.hpp"
 
+#include "core/geometry/box/functions.hpp"
+
 namespace crt::core {
 
 BoxShape::BoxShape(const Box& box)
@@ -184,6 +186,10 @@ template void BoxShape::write_point<double>(const Vec3&, const Vec3&, std::uint3
                                             SurfacePoint&) const;
 template void BoxShape::write_point<Lanes>(const VectorLanes&, const VectorLanes&, std::uint32_t,
                                            bool, SurfacePointLanes&) const;
+
+std::unique_ptr<const FaceFunctions> BoxShape::face_functions() const {
+  return face_functions_of(BoxFunctions{.lower = lower_, .upper = upper_});
+}
 
 SurfacePieces BoxShape::pieces() const {
   SurfacePieces pieces;

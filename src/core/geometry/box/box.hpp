@@ -42,6 +42,7 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   std::uint32_t face_count() const override { return 6; }
   Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
   SurfacePieces pieces() const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

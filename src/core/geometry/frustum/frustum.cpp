@@ -6,6 +6,8 @@
 #include "core/geometry/frustum/enclose.hpp"
 #include "core/geometry/frustum/start.hpp"
 
+#include "core/geometry/frustum/functions.hpp"
+
 namespace crt::core {
 
 FrustumShape::FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius)
@@ -29,6 +31,11 @@ FrustumShape::FrustumShape(const Vec3& from, const Vec3& to, double from_radius,
     cosine_ = height_ / slant;
     sine_ = growth / slant;
   }
+}
+
+std::unique_ptr<const FaceFunctions> FrustumShape::face_functions() const {
+  const auto [narrow, wide] = std::minmax(radii_[0], radii_[1]);
+  return face_functions_of(FrustumFunctions(from_, to_, narrow_, narrow, wide));
 }
 
 SurfacePieces FrustumShape::pieces() const {

@@ -74,6 +74,7 @@ class FrustumShape : public ShapeOfSpans<FrustumShape> {
   std::uint32_t face_count() const final { return caps_[1] ? 3 : 2; }
   Surface surface(std::uint32_t face) const final;
   SurfacePieces pieces() const final;
+  std::unique_ptr<const FaceFunctions> face_functions() const final;
   std::size_t bytes() const override { return sizeof *this; }
 
   static constexpr std::uint32_t side_face = 0;

@@ -2,10 +2,20 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/geometry/plane/functions.hpp"
+
 namespace crt::core {
 
 PlaneShape::PlaneShape(const Plane& plane)
     : face_(plane.normal, plane.position), axes_(plane_axes(plane.normal)) {}
+
+std::unique_ptr<const FaceFunctions> PlaneShape::face_functions() const {
+  const Vec3 normal =
+      face_.normal() * inverse_of_power(power_of_two_below(largest_component(face_.normal())));
+  return face_functions_of(PlaneFunction{
+      {.normal = {Interval::of(normal.x), Interval::of(normal.y), Interval::of(normal.z)},
+       .position = face_.position()}});
+}
 
 Bounds PlaneShape::bounds() const {
   Bounds result = Bounds::everything();

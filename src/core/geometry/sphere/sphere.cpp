@@ -5,6 +5,8 @@
 #include "core/geometry/angles.hpp"
 #include "core/geometry/clipped_span.hpp"
 
+#include "core/geometry/sphere/functions.hpp"
+
 namespace crt::core {
 
 SphereShape::SphereShape(const Sphere& sphere)
@@ -105,6 +107,13 @@ void SphereShape::points_on_each(const std::array<const Shape*, lane_count>& sph
 
 Surface SphereShape::surface(std::uint32_t) const {
   return {.kind = SurfaceKind::sphere, .position = center_ + Vec3(0.0), .sizes = {radius_, 0}};
+}
+
+std::unique_ptr<const FaceFunctions> SphereShape::face_functions() const {
+  const double inverse_unit = inverse_of_power(unit_);
+  return face_functions_of(SphereFunction{.center = center_,
+                                          .inverse_unit = inverse_unit,
+                                          .radius = Interval::of(radius_ * inverse_unit)});
 }
 
 SurfacePieces SphereShape::pieces() const {

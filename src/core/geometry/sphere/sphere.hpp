@@ -131,6 +131,7 @@ class SphereShape final : public ShapeOfSpans<SphereShape> {
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   SurfacePieces pieces() const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

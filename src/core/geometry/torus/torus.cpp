@@ -5,6 +5,8 @@
 #include "core/geometry/disc/disc.hpp"
 #include "core/geometry/torus/spans.hpp"
 
+#include "core/geometry/torus/functions.hpp"
+
 namespace crt::core {
 
 TorusShape::TorusShape(const Torus& torus)
@@ -15,6 +17,14 @@ TorusShape::TorusShape(const Torus& torus)
       unit_(power_of_two_below(std::abs(torus.radius) + torus.thickness)),
       ring_(torus.radius / unit_),
       tube_(torus.thickness / unit_) {}
+
+std::unique_ptr<const FaceFunctions> TorusShape::face_functions() const {
+  return face_functions_of(TorusFunction{.center = center_,
+                                         .axis = enclosed_unit(frame_.along),
+                                         .inverse_unit = inverse_of_power(unit_),
+                                         .ring = Interval::of(ring_),
+                                         .tube = Interval::of(tube_)});
+}
 
 Bounds TorusShape::bounds() const {
   Bounds result;

@@ -65,6 +65,7 @@ class TorusShape final : public ShapeOfSpans<TorusShape> {
                    bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

@@ -1,0 +1,53 @@
+#include "core/geometry/face_functions.hpp"
+
+#include <algorithm>
+
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// A Way is what is between two points, in units of a power of two near its length.
+struct Way {
+  PointOf<Interval> vector;
+  double unit = 1;
+
+  Way(const Vec3& from, const Vec3& to) {
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) {
+      Interval& component = vector[static_cast<std::size_t>(i)];
+      component = Interval::of(to[i]) - Interval::of(from[i]);
+      if (to[i] == from[i]) component = {0, 0};
+      largest = std::max(largest, component.magnitude());
+    }
+    unit = power_of_two_below(largest);
+    vector = scaled(vector, inverse_of_power(unit));
+  }
+  Interval length() const { return root(squared_length(vector)); }
+};
+
+}  // namespace
+
+PointOf<Interval> unit_vector(const Vec3& from, const Vec3& to) {
+  Way way(from, to);
+  const Interval length = way.length();
+  for (Interval& component : way.vector) {
+    const bool is_none = component.lo == 0 && component.hi == 0;
+    component = is_none ? Interval{0, 0} : component / length;
+  }
+  return way.vector;
+}
+
+PointOf<Interval> enclosed_unit(const Vec3& unit) {
+  const double off = coordinate_axis(unit) >= 0 ? 0 : 4 * unit_roundoff;
+  const auto component = [&](double x) { return Interval{x - off, x + off}; };
+  return {component(unit.x), component(unit.y), component(unit.z)};
+}
+
+Interval distance(const Vec3& from, const Vec3& to) {
+  const Way way(from, to);
+  return way.length() * Interval::of(way.unit);
+}
+
+}  // namespace crt::core
