@@ -30,7 +30,9 @@ struct NearFaces {
     /// A point of the box is in the solid if all functions of `faces` are below 0 there, and not in
     /// it if one of them is above.
     where_all_negative,
-    unknown,  ///< nothing is known
+    /// Nothing is known, but that no other faces than `faces` are in the box. If these are none,
+    /// not even that.
+    unknown,
   };
   Kind kind = Kind::unknown;
   std::vector<std::uint32_t> faces;
