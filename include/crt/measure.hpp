@@ -74,18 +74,20 @@ enum class PointSide : std::int8_t {
 };
 
 /// Finds whether points are in a solid. What coincides is decided by identity: a point where two
-/// parts of a union touch is inside. Of Custom solids it says `inside` or `outside` alone, as rays
-/// do. Points must be finite, and `sides` has as many places. It runs on up to `threads` threads
-/// (as in RenderOptions).
+/// parts of a union touch is inside. Where surfaces touch without crossing, it may be `on` what is
+/// no surface. Of Custom solids it says `inside` or `outside` alone, as rays do. Points must be
+/// finite, and `sides` has as many places. It runs on up to `threads` threads (as in
+/// RenderOptions).
 void contains(const Entity& entity, std::span<const Vec3> points, std::span<PointSide> sides,
               int threads = 0);
 /// Does so for one point. For many it is much cheaper to ask at once.
 PointSide contains(const Entity& entity, const Vec3& point);
 
-/// Returns a box that holds a solid, each side of which is within `relative_width` times half of
-/// the longest side of bounding_box() of the smallest one. Sides that are infinite there stay so,
-/// and so do all sides of what is infinite along another axis. It is empty (lower > upper) for a
-/// solid without points. Surfaces have the box that bounding_box() says.
+/// Returns a box that holds a solid. Each side is within `relative_width` times half of the longest
+/// side of bounding_box() of the smallest one, but for solids that merely touch where they are
+/// intersected, of which it may be larger. Sides that are infinite there stay so, and so do all
+/// sides of what is infinite along another axis. It is empty (lower > upper) for a solid without
+/// points. Surfaces have the box that bounding_box() says.
 BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& options = {});
 
 }  // namespace crt

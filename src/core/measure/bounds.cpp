@@ -36,13 +36,15 @@ class ExtentSearch {
   double run() {
     for (std::uint32_t i = 0; i < solids_.size(); ++i)
       add({solids_[i].cell(first_box(solids_[i].bounds())), i, infinity});
-    while (!cells_.empty() && cells_.front().most > surely_ + width_ && !clock_.is_over()) {
+    while (!cells_.empty() && cells_.front().most > surely_ + width_ && looks_ < most_looks &&
+           !clock_.is_over()) {
       std::pop_heap(cells_.begin(), cells_.end(), less);
       const ReachingCell whole = std::move(cells_.back());
       cells_.pop_back();
       const std::vector<Bounds> parts = halves_of(whole.cell.box);
-      if (parts.size() == 1) {
-        at_least_ = std::max(at_least_, whole.most);  // it cannot be divided
+      const double size = largest_component(whole.cell.box.upper - whole.cell.box.lower);
+      if (parts.size() == 1 || size < 0.25 * width_) {
+        at_least_ = std::max(at_least_, whole.most);  // so little is not looked into
         continue;
       }
       for (const Bounds& part : parts) add({{part, whole.cell.program}, whole.object, whole.most});
@@ -55,7 +57,11 @@ class ExtentSearch {
  private:
   static bool less(const ReachingCell& a, const ReachingCell& b) { return a.most < b.most; }
 
+  /// Solids that merely touch may leave any number of cells open.
+  static constexpr std::size_t most_looks = std::size_t{1} << 16;
+
   void add(ReachingCell&& open) {
+    ++looks_;
     const CellSolid& solid = solids_[open.object];
     const CellLook look = solid.look(open.cell);
     const CellReach reach = reach_of(open.cell.box, look, axis_, sign_);
@@ -79,6 +85,7 @@ class ExtentSearch {
   std::vector<ReachingCell> cells_;  ///< a heap, that which may reach farthest first
   double surely_ = -infinity;        ///< a point of the solids is there
   double at_least_ = -infinity;      ///< cells that are done reach there
+  std::size_t looks_ = 0;
 };
 
 }  // namespace
