@@ -17,6 +17,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace crt {
 
@@ -89,5 +90,46 @@ PointSide contains(const Entity& entity, const Vec3& point);
 /// sides of what is infinite along another axis. It is empty (lower > upper) for a solid without
 /// points. Surfaces have the box that bounding_box() says.
 BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& options = {});
+
+/// A NearestPoint is where the surface of a solid is nearest to a point.
+struct NearestPoint {
+  Interval distance;    ///< below 0 for a point in the solid
+  Vec3 point{0, 0, 0};  ///< of the surface, as far away as the interval says, to its width
+};
+
+/// Finds the nearest points of a solid's surface. Distances are found to `relative_width` of
+/// themselves, or to 1e-12 of half of the longest side of the box around the solid if that is more.
+/// Where surfaces are equally near over a wide range, as between a shaft and its bore, or merely
+/// touch, the intervals may stay wider. Points must be finite, and `nearest` has as many places.
+/// Throws Error (invalid_argument) for a solid without points, too.
+void nearest_points(const Entity& entity, std::span<const Vec3> points,
+                    std::span<NearestPoint> nearest, const MeasureOptions& options = {});
+/// Does so for one point.
+NearestPoint nearest_point(const Entity& entity, const Vec3& point,
+                           const MeasureOptions& options = {});
+
+/// A Clearance is how near two solids are.
+struct Clearance {
+  Interval distance;   ///< 0 if they touch or overlap
+  Vec3 on_a{0, 0, 0};  ///< a pair of points so far apart
+  Vec3 on_b{0, 0, 0};
+  bool overlap = false;  ///< they have inner points in common, such as on_a
+};
+
+/// Finds how near two solids are, to a width as nearest_points() has it. That of solids that touch
+/// has a lower end of 0, and an upper end that is as small as the width. Throws as that does.
+Clearance clearance(const Entity& a, const Entity& b, const MeasureOptions& options = {});
+
+/// An Overlap is what two entities have in common.
+struct Overlap {
+  std::size_t first = 0;  ///< places in what was given
+  std::size_t second = 0;
+  Interval volume;
+};
+
+/// Finds all pairs of solids that overlap, in order, with how much they have in common. Surfaces
+/// without an inside are passed over, and so is what only touches.
+std::vector<Overlap> interference(std::span<const Entity> entities,
+                                  const MeasureOptions& options = {});
 
 }  // namespace crt

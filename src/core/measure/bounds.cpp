@@ -18,7 +18,7 @@ namespace core {
 
 namespace {
 
-/// A ReachingCell is one with how far it may reach along an axis, times a sign.
+/// A ReachingCell is one with how far the solid may reach in it.
 struct ReachingCell {
   Cell cell;
   std::uint32_t object = 0;
@@ -27,11 +27,11 @@ struct ReachingCell {
 
 class ExtentSearch {
  public:
-  ExtentSearch(std::span<const CellSolid> solids, int axis, double sign, double width,
+  ExtentSearch(std::span<const CellSolid> solids, const Vec3& direction, double width,
                MeasureClock& clock)
-      : solids_(solids), axis_(axis), sign_(sign), width_(width), clock_(clock) {}
+      : solids_(solids), direction_(direction), width_(width), clock_(clock) {}
 
-  /// Returns a bound on how far the solids reach, times the sign, or -infinity if they have no
+  /// Returns a bound on how far the solids reach, or -infinity if they have no
   /// points.
   double run() {
     for (std::uint32_t i = 0; i < solids_.size(); ++i)
@@ -64,7 +64,7 @@ class ExtentSearch {
     ++looks_;
     const CellSolid& solid = solids_[open.object];
     const CellLook look = solid.look(open.cell);
-    const CellReach reach = reach_of(open.cell.box, look, axis_, sign_);
+    const CellReach reach = reach_of(open.cell.box, look, direction_);
     if (reach.most == -infinity) return;
     surely_ = std::max(surely_, reach.surely);
     open.most = std::min(open.most, reach.most);
@@ -78,8 +78,7 @@ class ExtentSearch {
   }
 
   std::span<const CellSolid> solids_;
-  int axis_;
-  double sign_;
+  Vec3 direction_;
   double width_;
   MeasureClock& clock_;
   std::vector<ReachingCell> cells_;  ///< a heap, that which may reach farthest first
@@ -105,11 +104,13 @@ BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& optio
     const double width = options.relative_width * size;
     core::Bounds tight = rough;
     for (int axis = 0; axis < 3; ++axis) {
-      const double upper = core::ExtentSearch(cells.solids(), axis, 1, width, clock).run();
+      Vec3 direction(0, 0, 0);
+      direction[axis] = 1;
+      const double upper = core::ExtentSearch(cells.solids(), direction, width, clock).run();
       if (upper == -core::infinity) return {core::Bounds().lower, core::Bounds().upper};
+      const double lower = core::ExtentSearch(cells.solids(), -direction, width, clock).run();
       tight.upper[axis] = std::min(rough.upper[axis], upper);
-      tight.lower[axis] = std::max(
-          rough.lower[axis], -core::ExtentSearch(cells.solids(), axis, -1, width, clock).run());
+      tight.lower[axis] = std::max(rough.lower[axis], -lower);
     }
     return {tight.lower, tight.upper};
   } catch (const std::bad_alloc&) {

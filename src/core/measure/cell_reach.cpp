@@ -1,6 +1,8 @@
 #include "core/measure/cell_reach.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/measure/simplices.hpp"
 
@@ -9,19 +11,20 @@ namespace crt::core {
 namespace {
 
 /// Finds the farthest corner of what faces leave of a cube, with each face moved by a share of its
-/// error: 1 lets in all that may be inside, and -1 what surely is.
+/// error: 1 lets in all that may be there, and -1 what surely is.
 class FarthestCorner {
  public:
-  FarthestCorner(const CellLook& look, double share, int axis, double sign)
-      : look_(look), share_(share), axis_(axis), sign_(sign) {}
+  FarthestCorner(const CellLook& look, double share, const Vec3& direction, bool wanted)
+      : look_(look), share_(share), direction_(direction), wanted_(wanted) {}
 
-  /// Returns the corner's coordinate in the cube times the sign, or -infinity.
-  double find() {
+  Vec3 corner{0, 0, 0};
+  double distance = -infinity;  ///< along the direction, from the middle
+
+  void find() {
     const std::uint32_t count = 1U << look_.faces.size();
     for (std::uint32_t m = 0; m < count; ++m) {
-      if (look_.is_inside(m)) cut_off({cube().begin(), cube().end()}, 0, m);
+      if (look_.is_inside(m) == wanted_) cut_off({cube().begin(), cube().end()}, 0, m);
     }
-    return farthest_;
   }
 
  private:
@@ -29,7 +32,12 @@ class FarthestCorner {
     if (parts.empty()) return;
     if (number == look_.faces.size()) {
       for (const Tetrahedron& part : parts) {
-        for (const Vec3& corner : part) farthest_ = std::max(farthest_, sign_ * corner[axis_]);
+        for (const Vec3& place : part) {
+          const double along = glm::dot(direction_, place);
+          if (!(along > distance)) continue;
+          distance = along;
+          corner = place;
+        }
       }
       return;
     }
@@ -45,30 +53,45 @@ class FarthestCorner {
 
   const CellLook& look_;
   double share_;
-  int axis_;
-  double sign_;
-  double farthest_ = -infinity;
+  Vec3 direction_;
+  bool wanted_;
 };
 
 }  // namespace
 
-CellReach reach_of(const Bounds& box, const CellLook& look, int axis, double sign) {
-  if (look.kind == CellLook::Kind::empty) return {};
-  const double lower = std::min(sign * box.lower[axis], sign * box.upper[axis]);
-  const double upper = std::max(sign * box.lower[axis], sign * box.upper[axis]);
-  if (look.kind == CellLook::Kind::full) return {.surely = upper, .most = upper};
-  if (look.kind == CellLook::Kind::unknown) return {.most = upper};
-  const auto in_world = [&](double in_cube) {
-    return 0.5 * lower + 0.5 * upper + in_cube * (0.5 * upper - 0.5 * lower);
-  };
-  // This is more than the roundings of cuts.
+CellReach reach_of(const Bounds& box, const CellLook& look, const Vec3& direction,
+                   CellPoints points) {
+  const bool wanted = points == CellPoints::inside;
+  const CellLook::Kind none = wanted ? CellLook::Kind::empty : CellLook::Kind::full;
+  if (look.kind == none) return {};
+  const CellFrame frame(box);
+  const double at_middle = glm::dot(direction, frame.middle);
+  const Vec3 in_cube = direction * frame.half;
+  const double to_corner = std::abs(in_cube.x) + std::abs(in_cube.y) + std::abs(in_cube.z);
+  // This is more than the roundings of cuts and of places.
   const double off =
-      0x1p-40 * (upper - lower) + 0x1p-51 * std::max(std::abs(lower), std::abs(upper));
-  const double most = FarthestCorner(look, 1, axis, sign).find();
-  if (most == -infinity) return {};
-  const double surely = FarthestCorner(look, -1, axis, sign).find();
-  return {.surely = surely == -infinity ? -infinity : in_world(surely) - off,
-          .most = std::min(upper, in_world(most) + off)};
+      0x1p-40 * to_corner + 0x1p-50 * (std::abs(at_middle) + largest_component(frame.middle));
+  const auto at = [&](const Vec3& corner) { return frame.middle + frame.half * corner; };
+  if (look.kind == CellLook::Kind::full || look.kind == CellLook::Kind::empty) {
+    Vec3 corner;
+    for (int axis = 0; axis < 3; ++axis)
+      corner[axis] = in_cube[axis] < 0 ? box.lower[axis] : box.upper[axis];
+    return {.surely = at_middle + to_corner - off,
+            .point = corner,
+            .most = at_middle + to_corner + off};
+  }
+  CellReach reach{.most = at_middle + to_corner + off};
+  if (look.kind == CellLook::Kind::unknown) return reach;
+  FarthestCorner farthest(look, 1, in_cube, wanted);
+  farthest.find();
+  if (farthest.distance == -infinity) return {};
+  reach.most = std::min(reach.most, at_middle + farthest.distance + off);
+  FarthestCorner sure(look, -1, in_cube, wanted);
+  sure.find();
+  if (sure.distance == -infinity) return reach;
+  reach.surely = at_middle + sure.distance - off;
+  reach.point = at(sure.corner);
+  return reach;
 }
 
 std::vector<Bounds> halves_of(const Bounds& box, int whole_axis) {

@@ -21,6 +21,7 @@ class EntityCells {
   /// Throws Error (invalid_argument) if that is infinite.
   void check_bounded() const;
   bool has_all_functions() const;
+  bool has_points() const { return !solids_.empty(); }
 
  private:
   CompiledScene scene_;
