@@ -11,10 +11,10 @@ COMMAND = os.environ["CRT_COMMAND"]
 WIDTH, HEIGHT = 96, 64
 SCENE = """Settings {
     width -> 96 height -> 64 targeterror -> 0.03 maxsamples -> 32
+    lights -> [PointLight { origin -> vec3(2, 3, -2) color -> rgb(1, 1, 1) radius -> 1 }]
     camera -> Camera { position -> vec3(0, 0, -4) pointing -> vec3(0, 0, 0) }
 }
 Scene {
-    PointLight { origin -> vec3(2, 3, -2) color -> rgb(1, 1, 1) radius -> 1 }
     Sphere { center -> vec3(-1, 0, 0) radius -> 0.7 }
     Box { cornerA -> vec3(0.5, -0.5, -0.5) cornerB -> vec3(1.5, 0.5, 0.5) }
     Plane { normal -> vec3(0, 1, 0) position -> vec3(0, -0.7, 0) }

@@ -143,9 +143,8 @@ withPage('the exposure is shown at once, also while one renders, and is of the v
 
 withPage('noise is smoothed away in the view alone, which says so, and the browser keeps that',
          async ({page, folder}) => {
-  const noisy = scene.replace('supersampling -> 2', 'targeterror -> 0.03 maxsamples -> 32')
-    .replace('Scene {', 'Scene { PointLight { origin -> vec3(2, 3, -2) color -> rgb(1, 1, 1) ' +
-                        'radius -> 1 }');
+  const noisy = scene.replace('supersampling -> 2', 'targeterror -> 0.03 maxsamples -> 32 lights ' +
+    '-> [PointLight { origin -> vec3(2, 3, -2) color -> rgb(1, 1, 1) radius -> 1 }]');
   await rendered(page, () => page.evaluate((content) => studio.editor.replace(content), noisy));
   const fileOf = async () => {
     const [download] = await Promise.all([
