@@ -80,6 +80,7 @@ PointOf<Interval> random_box(const core::Shape& shape, Random& random) {
 std::optional<bool> is_inside(const core::Shape& shape, const Vec3& point, Random& random) {
   const core::ObjectRay ray{.origin = point, .direction = random.direction()};
   const Crossings crossings = crossings_of(shape, ray);
+  if (crossings.list.undecided > 0) return std::nullopt;
   bool inside = crossings.starts_inside;
   for (const core::Crossing& crossing : crossings.list) {
     constexpr double rounding = 1e-13;
@@ -258,7 +259,7 @@ TEST_CASE("all solids but custom ones: of small boxes at the surface most are kn
     } else {
       CAPTURE(known);
       CAPTURE(boxes);
-      CHECK(known >= 0.95 * boxes);
+      CHECK(known >= 0.98 * boxes);
     }
   }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace crt::core {
 
@@ -13,9 +15,28 @@ Cells side_of_cut(std::size_t cut, bool is_below, Cells all) {
   return is_below ? below : all & ~below;
 }
 
+double middle_of(const Interval& range) {
+  return 0.5 * range.lo + 0.5 * range.hi;
+}
+
+/// A RoughCut is a cut in rounded arithmetic.
+struct RoughCut {
+  double curving = 0;
+  Vec3 slope{0, 0, 0};
+  double at_middle = 0;
+
+  RoughCut() = default;
+  explicit RoughCut(const Cut& cut)
+      : curving(middle_of(cut.curving)),
+        slope(middle_of(cut.slope[0]), middle_of(cut.slope[1]), middle_of(cut.slope[2])),
+        at_middle(middle_of(cut.at_middle)) {}
+  double value(const Vec3& offset) const {
+    return curving * glm::dot(offset, offset) + glm::dot(slope, offset) + at_middle;
+  }
+};
+
 Vec3 middle_of_box(const PointOf<Interval>& box) {
-  const auto middle = [&](std::size_t i) { return 0.5 * box[i].lo + 0.5 * box[i].hi; };
-  return {middle(0), middle(1), middle(2)};
+  return {middle_of(box[0]), middle_of(box[1]), middle_of(box[2])};
 }
 
 }  // namespace
@@ -25,31 +46,62 @@ CutBox::CutBox(const PointOf<Interval>& box) : box_(box), middle_(middle_of_box(
 }
 
 std::array<CutBox::Sample, 4> CutBox::find_samples() const {
-  constexpr std::array<double, 3> shares = {0.5, 0.02, 0.98};
-  const auto count = [&](std::size_t axis) { return box_[axis].is_point() ? 1U : shares.size(); };
+  // Points of round numbers would often be level with corners, which takes exact arithmetic.
+  constexpr std::array<double, 3> shares = {0.4871, 0.0213, 0.9829};
+  std::array<RoughCut, most_cuts> rough;
+  for (std::size_t cut = 0; cut < count_; ++cut) rough[cut] = RoughCut(cuts_[cut]);
   std::array<Sample, 4> samples;
-  const auto place = [&](std::size_t axis, std::size_t i) {
-    const Interval& range = box_[axis];
-    return std::clamp(range.lo + shares[i] * (range.hi - range.lo), range.lo, range.hi);
+  const auto try_at = [&](const Vec3& offset) {
+    unsigned cell = 0;
+    double distance = infinity;
+    for (std::size_t cut = 0; cut < count_; ++cut) {
+      const double value = rough[cut].value(offset);
+      if (value < 0) cell |= 1U << cut;
+      distance = std::min(distance, std::abs(value));
+    }
+    if (distance > samples[cell].distance) samples[cell] = {middle_ + offset, distance};
   };
+  const Vec3 size(box_[0].width(), box_[1].width(), box_[2].width());
+  const auto count = [&](int axis) { return count_ == 0 || size[axis] == 0 ? 1U : shares.size(); };
+  const Vec3 lower(offset_[0].lo, offset_[1].lo, offset_[2].lo);
   for (std::size_t i = 0; i < count(0); ++i) {
     for (std::size_t j = 0; j < count(1); ++j) {
-      for (std::size_t k = 0; k < count(2); ++k) {
-        const Vec3 point(place(0, i), place(1, j), place(2, k));
-        const PointOf<Interval> offset = relative_to(known_point(point), middle_);
-        unsigned cell = 0;
-        double distance = infinity;
-        for (std::size_t cut = 0; cut < count_; ++cut) {
-          const Interval value = cuts_[cut].value(offset);
-          if (value.hi < 0) cell |= 1U << cut;
-          distance = std::min(distance, std::max(value.lo, -value.hi));
-        }
-        if (distance > samples[cell].distance) samples[cell] = {point, distance};
-        if (count_ == 0) return samples;
-      }
+      for (std::size_t k = 0; k < count(2); ++k)
+        try_at(lower + size * Vec3(shares[i], shares[j], shares[k]));
     }
   }
+  // From cell to opposite cell a line crosses both cuts, and between them one that may be thin.
+  for (const unsigned cell : {0U, 1U}) {
+    const Sample from = samples[cell];
+    const Sample to = samples[cell ^ 3];
+    if (count_ < most_cuts || !(from.distance > 0 && to.distance > 0)) continue;
+    const Vec3 begin = from.point - middle_;
+    const Vec3 way = to.point - from.point;
+    double share = 0;
+    for (const RoughCut& cut : rough) {
+      const double value = cut.value(begin);
+      share += 0.5 * value / (value - cut.value(begin + way));
+    }
+    try_at(begin + share * way);
+  }
+  for (unsigned cell = 0; cell < cell_count(); ++cell) {
+    if (samples[cell].distance > 0 && !is_surely_in(samples[cell].point, cell))
+      samples[cell].distance = 0;
+  }
   return samples;
+}
+
+bool CutBox::is_surely_in(const Vec3& point, unsigned cell) const {
+  const PointOf<Interval> place = known_point(point);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (place[i].lo < box_[i].lo || place[i].hi > box_[i].hi) return false;
+  }
+  const PointOf<Interval> offset = relative_to(place, middle_);
+  for (std::size_t cut = 0; cut < count_; ++cut) {
+    const Interval value = cuts_[cut].value(offset);
+    if ((cell >> cut & 1) != 0 ? value.hi >= 0 : value.lo <= 0) return false;
+  }
+  return true;
 }
 
 Cells CutBox::empty_cells() const {

@@ -73,7 +73,8 @@ class CutBox {
   }
 
  private:
-  /// A Sample is a point of a cell, and how far it is from the cuts at least.
+  /// A Sample is a point of a cell, and about how far it is from the cuts. Cells without one have 0
+  /// there.
   struct Sample {
     Vec3 point{0, 0, 0};
     double distance = 0;
@@ -82,6 +83,8 @@ class CutBox {
   Cells all_cells() const { return (1U << cell_count()) - 1; }
   /// Returns for each cell the point, of some of the box, that is farthest from the cuts.
   std::array<Sample, 4> find_samples() const;
+  /// Returns whether a point is in the box, and in a cell.
+  bool is_surely_in(const Vec3& point, unsigned cell) const;
   /// Returns cells that surely have no point.
   Cells empty_cells() const;
   Cells full_by_turns(unsigned cell, bool is_full) const;

@@ -42,7 +42,9 @@ void HeightFieldFunctions::look_at_surface(const PointOf<Interval>& box, NearFac
   std::vector<std::uint32_t> faces;
   facets->append_near({Vec3(0), 0}, touched, faces);
   for (const std::uint32_t face : faces) {
-    if (!near_facets.add(face, facets->triangle(face))) return;
+    const Triangle triangle = facets->triangle(face);
+    const Facing facing = facets->facing_of({triangle, face});
+    if (!near_facets.add(face, triangle, facing)) return;
   }
   near_facets.look([&](const ObjectRay& ray,
                        CrossingList& out) { return standard_crossings(*facets, ray, out); },

@@ -21,7 +21,8 @@ void MeshFunctions::look(const PointOf<Interval>& box, NearFaces& near) const {
       if (!child.is_leaf()) return open.push(child.index());
       for (const MeshTriangles::Placed& placed :
            mesh.placed().subspan(child.index(), child.count()))
-        is_plain = is_plain && near_facets.add(placed.number, mesh.corners_of(placed));
+        is_plain = is_plain &&
+                   near_facets.add(placed.number, mesh.corners_of(placed), placed.plane.faces());
     });
   }
   if (!is_plain) return near.say(NearFaces::Kind::unknown);

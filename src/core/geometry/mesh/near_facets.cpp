@@ -54,22 +54,26 @@ int side_of(const HalfSpaceFunction& plane, const PointOf<Interval>& box) {
   return value.lo >= 0 ? 1 : (value.hi <= 0 ? -1 : 0);
 }
 
-bool may_cut(const Triangle& triangle, const HalfSpaceFunction& plane,
-             const PointOf<Interval>& box) {
+CutByTriangle cut_by(const Triangle& triangle, const HalfSpaceFunction& plane,
+                     const PointOf<Interval>& box) {
   Bounds bounds;
   for (const Vec3& corner : {triangle.a, triangle.b, triangle.c}) bounds.include(corner);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<int>(i);
-    if (box[i].hi <= bounds.lower[axis] || box[i].lo >= bounds.upper[axis]) return false;
+    if (box[i].hi <= bounds.lower[axis] || box[i].lo >= bounds.upper[axis])
+      return CutByTriangle::none;
   }
-  if (side_of(plane, box) != 0) return false;
+  if (side_of(plane, box) != 0) return CutByTriangle::none;
   const Vec3 corners[] = {triangle.a, triangle.b, triangle.c, triangle.a};
+  bool is_all = true;
   for (std::size_t i = 0; i < 3; ++i) {
     const PointOf<Interval> edge = relative_to(known_point(corners[i + 1]), corners[i]);
     const HalfSpaceFunction inwards{.normal = cross(plane.normal, edge), .position = corners[i]};
-    if (inwards.value(box).hi <= 0) return false;
+    const Interval within = inwards.value(box);
+    if (within.hi <= 0) return CutByTriangle::none;
+    is_all = is_all && within.lo >= 0;
   }
-  return true;
+  return is_all ? CutByTriangle::all : CutByTriangle::some;
 }
 
 Cut cut_by(const HalfSpaceFunction& plane, const Vec3& middle) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/geometry/cut_box.hpp"
+#include "core/geometry/mesh/facing.hpp"
 #include "core/geometry/shape.hpp"
 
 namespace crt::core {
@@ -17,17 +18,22 @@ HalfSpaceFunction plane_function(const Triangle& triangle);
 /// Returns the sign of a plane's function in a box, or 0 if it may have both.
 int side_of(const HalfSpaceFunction& plane, const PointOf<Interval>& box);
 
-/// Returns whether a triangle may cut a box. What only touches it does not.
-bool may_cut(const Triangle& triangle, const HalfSpaceFunction& plane,
-             const PointOf<Interval>& box);
+/// Says whether a triangle cuts a box: surely not, as what only touches it, or perhaps, or surely
+/// with all that its plane has in the box.
+enum class CutByTriangle : std::uint8_t { none, some, all };
+CutByTriangle cut_by(const Triangle& triangle, const HalfSpaceFunction& plane,
+                     const PointOf<Interval>& box);
 
 Cut cut_by(const HalfSpaceFunction& plane, const Vec3& middle);
+
+/// Lines in this direction are rarely level with edges of a mesh, which takes exact arithmetic.
+inline const Vec3 some_direction(0.9371823451, 0.2917652873, 0.1914437692);
 
 /// Returns whether a point is inside, if no error of the crossings of a line through it leaves that
 /// open. crossings(ray, list) is as Shape::crossings().
 template <class Crossings>
 std::optional<bool> is_inside_by_line(const Vec3& point, const Crossings& crossings) {
-  const ObjectRay ray{.origin = point, .direction = {1, 0.3125, 0.1875}};
+  const ObjectRay ray{.origin = point, .direction = some_direction};
   CrossingList list;
   bool inside = crossings(ray, list);
   for (const Crossing& crossing : list) {
@@ -45,10 +51,16 @@ class NearFacets {
   NearFacets(const Facets& facets, std::uint32_t face_count, const PointOf<Interval>& box)
       : facets_(facets), face_count_(face_count), box_(box) {}
 
-  /// Adds a face if it cuts the box. Returns false if there are too many planes or triangles.
-  bool add(std::uint32_t face, const Triangle& triangle) {
+  /// Adds a face if it cuts the box. `facing` is on which side the solid is, if no other triangle
+  /// is in the same place. Returns false if there are too many planes or triangles.
+  bool add(std::uint32_t face, const Triangle& triangle, Facing facing) {
     const HalfSpaceFunction plane = plane_function(triangle);
-    if (!may_cut(triangle, plane, box_.box())) return true;
+    const CutByTriangle of_triangle = cut_by(triangle, plane, box_.box());
+    if (of_triangle == CutByTriangle::none) return true;
+    if (of_triangle == CutByTriangle::all) {
+      if (facing == Facing::outwards) known_face_ = face;
+      if (facing == Facing::inwards) known_face_ = face + face_count_;
+    }
     constexpr std::size_t most_triangles = 64;
     if (++triangle_count_ > most_triangles) return false;
     for (std::size_t i = 0; i < cut_count_; ++i) {
@@ -67,6 +79,8 @@ class NearFacets {
 
   template <class Crossings>
   void look(const Crossings& crossings, NearFaces& near) {
+    if (cut_count_ == 1 && known_face_ != invalid_index)
+      return near.say(NearFaces::Kind::where_all_negative, {known_face_});
     for (std::size_t i = 0; i < cut_count_; ++i) box_.add(cuts_[i]);
     box_.look([&](const Vec3& point) { return is_inside_by_line(point, crossings); }, near);
   }
@@ -78,6 +92,7 @@ class NearFacets {
   std::array<Cut, CutBox::most_cuts> cuts_;
   std::size_t cut_count_ = 0;
   std::size_t triangle_count_ = 0;
+  std::uint32_t known_face_ = invalid_index;  ///< has the solid just where its function is below 0
 };
 
 /// Returns the value of a face's function, whose number is as NearFacets has it.
