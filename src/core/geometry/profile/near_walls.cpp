@@ -207,13 +207,14 @@ void RegionLook::find_walls() {
 
 void RegionLook::look(NearFaces& near) {
   find_walls();
-  if (failed_ || (has_arcs_ && (has_corners_ || has_repeats_)))
-    return near.say(NearFaces::Kind::unknown);
+  // Walls without ends here go all the way through, and the region is on one side of each.
+  const bool takes_turns = !has_corners_ && !has_repeats_;
+  if (failed_ || (has_arcs_ && !takes_turns)) return near.say(NearFaces::Kind::unknown);
   const auto is_inside = [&](const Vec3& point) -> std::optional<bool> {
     const ObjectRay across{.origin = point};
     return PlaneLine(across).is_inside(profile_);
   };
-  if (has_arcs_) return cut_box_.look_by_turns(is_inside, near);
+  if (takes_turns) return cut_box_.look_by_turns(is_inside, near);
   cut_box_.look(is_inside, near);
 }
 
