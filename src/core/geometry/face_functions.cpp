@@ -29,6 +29,24 @@ struct Way {
 
 }  // namespace
 
+void NearFaces::keep_within(std::uint32_t face) {
+  if (kind == Kind::outside) return;
+  if (kind == Kind::inside || kind == Kind::where_all_negative) {
+    kind = Kind::where_all_negative;
+    faces.push_back(face);
+  } else {
+    say(Kind::unknown);
+  }
+}
+
+bool may_overlap(const PointOf<Interval>& box, const Bounds& bounds) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<int>(i);
+    if (box[i].hi <= bounds.lower[axis] || box[i].lo >= bounds.upper[axis]) return false;
+  }
+  return true;
+}
+
 PointOf<Interval> unit_vector(const Vec3& from, const Vec3& to) {
   Way way(from, to);
   const Interval length = way.length();

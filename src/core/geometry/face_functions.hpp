@@ -8,10 +8,12 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include "core/geometry/bounds.hpp"
 #include "core/math/jet.hpp"
 #include "core/math/patch_series.hpp"
 #include "crt/vec.hpp"
@@ -30,12 +32,23 @@ struct NearFaces {
     /// A point of the box is in the solid if all functions of `faces` are below 0 there, and not in
     /// it if one of them is above.
     where_all_negative,
+    /// A point of the box is in the solid if one of these functions is below 0 there, and not in it
+    /// if all of them are above.
+    where_any_negative,
     /// Nothing is known, but that no other faces than `faces` are in the box. If these are none,
     /// not even that.
     unknown,
   };
   Kind kind = Kind::unknown;
+  /// Numbers from Shape::face_count() on are of more functions, whose surfaces no other solid has.
   std::vector<std::uint32_t> faces;
+
+  void say(Kind what, std::initializer_list<std::uint32_t> of_faces = {}) {
+    kind = what;
+    faces.assign(of_faces);
+  }
+  /// Takes away from the solid where the function of a face is above 0.
+  void keep_within(std::uint32_t face);
 };
 
 class FaceFunctions {
@@ -114,6 +127,13 @@ std::unique_ptr<const FaceFunctions> face_functions_of(const Solid& solid) {
   return std::make_unique<const FaceFunctionsOf<Solid>>(solid);
 }
 
+/// Returns whether a box may have more in common with bounds than a part of its surface.
+bool may_overlap(const PointOf<Interval>& box, const Bounds& bounds);
+
+/// Returns a point of which the coordinates are known.
+inline PointOf<Interval> known_point(const Vec3& point) {
+  return {Interval::of(point.x), Interval::of(point.y), Interval::of(point.z)};
+}
 /// Returns a place relative to another.
 template <class Number>
 PointOf<Number> relative_to(const PointOf<Number>& point, const Vec3& center) {

@@ -16,6 +16,12 @@ constexpr double sum_rounding = 0x1p-51;
 constexpr double product_rounding = 0x1p-48;
 constexpr double smallest = std::numeric_limits<double>::min();
 
+/// Returns a bound on an error, rounded upwards, which is infinite where it is not a number.
+double bound_of(double error) {
+  const double bound = error * bound_slack + smallest;
+  return bound <= Interval::largest ? bound : std::numeric_limits<double>::infinity();
+}
+
 /// Returns the sums of the sizes of terms, by degree.
 std::array<double, degree + 1> sizes_by_degree(const PatchSeries& a) {
   std::array<double, degree + 1> sizes{};
@@ -122,7 +128,7 @@ PatchSeries operator*(const PatchSeries& a, const PatchSeries& b) {
   double error = beyond + product_rounding * (size_a * size_b);
   if (a.error != 0) error += a.error * (size_b + b.error);
   if (b.error != 0) error += b.error * size_a;
-  result.error = error * bound_slack + smallest;
+  result.error = bound_of(error);
   return result;
 }
 
@@ -149,7 +155,7 @@ PatchSeries operator*(const PatchSeries& a, const Interval& b) {
   }
   double error = sum_rounding * (size * std::abs(factor.terms[0])) + factor.error * size;
   if (a.error != 0) error += a.error * (std::abs(factor.terms[0]) + factor.error);
-  result.error = error * bound_slack + smallest;
+  result.error = bound_of(error);
   return result;
 }
 

@@ -43,10 +43,14 @@ namespace {
 
 constexpr std::size_t max_faces = CellLook::max_faces;
 /// This is the surface of what is unknown, which is no other's.
-constexpr std::uint32_t unknown_surface = invalid_index;
+constexpr std::uint64_t unknown_surface = ~std::uint64_t{0};
 
-/// A NearFace is a face of an open leaf in a cell. Its leaf is inside where all its faces are
-/// negative.
+/// Returns the surface of a function that is of no face, which no other leaf has.
+std::uint64_t own_surface(std::uint32_t leaf, std::uint32_t face) {
+  return (std::uint64_t{leaf} + 1) << 32 | face;
+}
+
+/// A NearFace is a face of an open leaf in a cell.
 struct NearFace {
   std::size_t leaf = 0;    ///< place among the open leaves
   std::size_t number = 0;  ///< among the faces of the look
@@ -101,6 +105,7 @@ struct CellSolid::Workspace {
   NearFaces near;
   std::vector<CellFace> faces;  ///< those that may be negative or positive
   bool is_unknown = false;
+  bool is_any = false;       ///< the leaf is inside where any of its faces is negative, and not all
   double max_crossings = 0;  ///< of all faces that may be in the cell
 };
 
@@ -153,6 +158,7 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
       if (side.lo > bounds.upper[axis] || side.hi < bounds.lower[axis]) return outside;
     }
     work.is_unknown = true;
+    work.is_any = false;
     work.max_crossings = infinity;
     return LeafValue::open;
   }
@@ -161,6 +167,7 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
   if (work.near.kind == NearFaces::Kind::outside) return outside;
   if (work.near.kind == NearFaces::Kind::unknown) {
     work.is_unknown = true;
+    work.is_any = false;
     if (work.near.faces.empty()) work.max_crossings = infinity;
     for (const std::uint32_t face : work.near.faces) {
       const int crossings = leaf.functions->max_crossings(face);
@@ -168,6 +175,7 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
     }
     return LeafValue::open;
   }
+  work.is_any = work.near.kind == NearFaces::Kind::where_any_negative;
   const std::array<Jet, 3> jets = leaf.placement->to_object(jets_of(place));
   const auto& [x, y, z] = std::array{frame.middle.x, frame.middle.y, frame.middle.z};
   const std::array<Interval, 3> middle = leaf.placement->to_object(
@@ -176,19 +184,26 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
     const Jet jet = leaf.functions->value(face, jets);
     const Interval at_middle = leaf.functions->value(face, middle);
     const Interval range = narrowed(at_middle, jet, frame.half);
-    if (range.lo > 0) return outside;
-    if (range.hi < 0) continue;
-    const FaceSurface surface = leaf.leaf->surface_of(face, surfaces_);
+    if (range.lo > 0 || range.hi < 0) {
+      const bool is_negative = range.hi < 0;
+      if (is_negative == work.is_any) return is_negative ? inside : outside;
+      continue;
+    }
     CellFace found = linear_face(at_middle, jet, frame.half);
     found.leaf = static_cast<std::uint32_t>(&leaf - leaves_.data());
     found.face = face;
-    found.surface = surface.surface;
-    found.flipped = surface.flipped;
+    found.surface = own_surface(found.leaf, face);
+    if (face < leaf.leaf->shape->face_count()) {
+      const FaceSurface surface = leaf.leaf->surface_of(face, surfaces_);
+      found.surface = surface.surface;
+      found.flipped = surface.flipped;
+    }
     work.faces.push_back(found);
     const int crossings = leaf.functions->max_crossings(face);
     work.max_crossings += crossings > 0 ? crossings : infinity;
   }
-  return work.faces.empty() ? inside : LeafValue::open;
+  if (!work.faces.empty()) return LeafValue::open;
+  return work.is_any ? outside : inside;
 }
 
 CellLook CellSolid::look(const Cell& cell) const {
@@ -198,10 +213,12 @@ CellLook CellSolid::look(const Cell& cell) const {
   Workspace work;
   std::vector<LeafValue> values(program.leaves.size());
   std::vector<NearFace> near;
+  std::vector<bool> is_any(program.leaves.size(), false);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = look_at(leaves_[program.leaves[i].leaf], cell, frame, work);
     if (values[i] != LeafValue::open) continue;
     look.max_crossings += work.max_crossings;
+    is_any[i] = work.is_any;
     // Of what is unknown there is one face, of which nothing is known.
     if (work.is_unknown) {
       work.faces = {
@@ -246,12 +263,14 @@ CellLook CellSolid::look(const Cell& cell) const {
   const auto leaf_true = std::make_unique<bool[]>(rest->leaves.size());
   const std::uint32_t count = 1U << look.faces.size();
   for (std::uint32_t m = 0; m < count; ++m) {
-    std::fill_n(leaf_true.get(), rest->leaves.size(), true);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i] < rest->leaves.size()) leaf_true[places[i]] = !is_any[i];
     for (const NearFace& face : near) {
       const std::size_t place = places[face.leaf];
       if (place == rest->leaves.size()) continue;
-      const bool negative = ((m >> numbers[face.number]) & 1U) != 0;
-      if (negative == face.flipped) leaf_true[place] = false;
+      const bool is_set = ((m >> numbers[face.number]) & 1U) != 0;
+      const bool negative = is_set != face.flipped;
+      if (negative == is_any[face.leaf]) leaf_true[place] = negative;
     }
     for (std::size_t i = 0; i < rest->leaves.size(); ++i) {
       if (leaves_[rest->leaves[i].leaf].leaf->complemented) leaf_true[i] = !leaf_true[i];

@@ -2,8 +2,8 @@
 // faces of a solid. This is what all questions about a whole solid stand on: how much it is, where
 // it is, how far away.
 //
-// What crosses a cell is told by the identity of surfaces: faces that coincide are one surface, so
-// coincidence is decided at once and not by ever smaller cells.
+// Faces that coincide are known by the identity of their surface. So coincidence is decided at
+// once, and not by ever smaller cells.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct CellFrame {
 struct CellFace {
   std::uint32_t leaf = 0;  ///< within the object: the first whose face it is
   std::uint32_t face = 0;
-  std::uint32_t surface = 0;
+  std::uint64_t surface = 0;  ///< its number, or one that no other leaf has
   bool flipped = false;
   double value = 0;
   Vec3 slope{0, 0, 0};

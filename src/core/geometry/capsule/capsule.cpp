@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/geometry/capsule/functions.hpp"
 #include "core/geometry/near_line.hpp"
 #include "core/math/direction_and_length.hpp"
 #include "core/math/vector.hpp"
@@ -125,6 +126,10 @@ void CapsuleShape::points_on(const VectorLanes& offsets, const VectorLanes& dire
   const bool is_side = face == side_face;
   part(face).points_on(offsets, directions, some, 0, with_uv && is_side, points);
   if (with_uv) set_uv<Lanes>(face, points);
+}
+
+std::unique_ptr<const FaceFunctions> CapsuleShape::face_functions() const {
+  return face_functions_of(CapsuleFunctions(centers_[0], centers_[1], radius_, unit_));
 }
 
 std::unique_ptr<const Shape> make_shape(const Capsule& capsule) {

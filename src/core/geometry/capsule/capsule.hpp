@@ -48,6 +48,7 @@ class CapsuleShape final : public Shape {
                  std::uint32_t face, bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 3; }
   Surface surface(std::uint32_t face) const override { return part(face).surface(0); }
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
   static constexpr std::uint32_t side_face = 0;

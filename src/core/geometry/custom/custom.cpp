@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/checks.hpp"
+#include "core/geometry/custom/functions.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
 #include "text/format.hpp"
@@ -219,6 +220,10 @@ void validate(const Custom& custom) {
   if (faces == 0 || faces > max_faces) {
     refuse_answer(shape, text::format("there must be 1 to {} faces, but are {}", max_faces, faces));
   }
+}
+
+std::unique_ptr<const FaceFunctions> CalledShape::face_functions() const {
+  return face_functions_of(CustomFunctions{bounds_});
 }
 
 std::unique_ptr<const Shape> make_shape(const Custom& custom) {

@@ -35,6 +35,7 @@ class CalledShape final : public ShapeOfSinglePoints {
                         bool with_uv) const override;
   std::uint32_t face_count() const override { return face_count_; }
   Surface surface(std::uint32_t face) const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   /// Returns only its own bytes, as nobody knows those of the program's shape.
   std::size_t bytes() const override { return sizeof *this; }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/geometry/checks.hpp"
+#include "core/geometry/extrusion/functions.hpp"
 #include "core/geometry/frustum/start.hpp"
 #include "core/geometry/profile/contour_share.hpp"
 #include "core/math/vector.hpp"
@@ -192,6 +193,11 @@ Surface ExtrusionShape::surface(std::uint32_t face) const {
   Surface surface = planes_[piece.first].surface();
   if (piece.turned != is_turned(face)) surface.direction = -surface.direction;
   return surface;
+}
+
+std::unique_ptr<const FaceFunctions> ExtrusionShape::face_functions() const {
+  return face_functions_of(
+      ExtrusionFunctions{.profile = profile_, .lower = bounds_.lower.z, .upper = bounds_.upper.z});
 }
 
 std::size_t ExtrusionShape::bytes() const {

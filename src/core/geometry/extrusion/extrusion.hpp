@@ -37,6 +37,7 @@ class ExtrusionShape final : public ShapeOfPoints<ExtrusionShape> {
     return end_count + 2 * static_cast<std::uint32_t>(profile_->wall_count());
   }
   Surface surface(std::uint32_t face) const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   /// Returns only its own bytes and those of the profile, which others may share.
   std::size_t bytes() const override;
 

@@ -2,6 +2,7 @@
 
 #include "core/geometry/box/box.hpp"
 #include "core/geometry/checks.hpp"
+#include "core/geometry/height_field/functions.hpp"
 #include "core/geometry/mesh/find_met_triangles.hpp"
 #include "core/geometry/triangle/triangle.hpp"
 
@@ -10,9 +11,9 @@ namespace crt::core {
 HeightFieldShape::HeightFieldShape(const HeightField& field)
     : heights_(field.heights), facets_(field) {}
 
-bool HeightFieldShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+bool standard_crossings(const HeightFacets& facets, const ObjectRay& ray, CrossingList& out) {
   PassingLine line(ray);
-  return append_met_triangles(facets_, line, StandardMeshTier(ray), out);
+  return append_met_triangles(facets, line, StandardMeshTier(ray), out);
 }
 
 template <class Real>
@@ -35,6 +36,10 @@ void HeightFieldShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real
 
 Surface HeightFieldShape::surface(std::uint32_t face) const {
   return TriangleShape(facets_.triangle(face)).surface(0);
+}
+
+std::unique_ptr<const FaceFunctions> HeightFieldShape::face_functions() const {
+  return face_functions_of(HeightFieldFunctions{std::make_shared<const HeightFacets>(facets_)});
 }
 
 void validate(const HeightField& field) {

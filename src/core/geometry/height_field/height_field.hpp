@@ -16,6 +16,9 @@
 
 namespace crt::core {
 
+/// Appends the crossings of a ray, as Shape::crossings() has them.
+bool standard_crossings(const HeightFacets& facets, const ObjectRay& ray, CrossingList& out);
+
 class HeightFieldShape final : public ShapeOfPoints<HeightFieldShape> {
  public:
   explicit HeightFieldShape(const HeightField& field);
@@ -23,13 +26,16 @@ class HeightFieldShape final : public ShapeOfPoints<HeightFieldShape> {
   bool is_solid() const override { return true; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override { return facets_.bounds(); }
-  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  bool crossings(const ObjectRay& ray, CrossingList& out) const override {
+    return standard_crossings(facets_, ray, out);
+  }
   Vec3 anchor(std::uint32_t face) const override { return facets_.triangle(face).a; }
   template <class Real>
   void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,
                    bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const override { return facets_.face_count(); }
   Surface surface(std::uint32_t face) const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   std::uint32_t listed_face_count() const override {
     return face_count() > max_compared_faces ? HeightFacets::first_of_cells : face_count();
   }

@@ -1,10 +1,5 @@
-// A field along a line is evaluated in interval arithmetic, together with its derivative.
-//
-// Each step has three intervals: its value at the middle of a part of the line, its values anywhere
-// in that part, and its slopes there. Of the whole field the mean value form, value(middle) +
-// slope (x - middle), cuts off what the second has too much. Sources: Moore, Kearfott, Cloud,
-// Introduction to interval analysis, 2009, chapter 6 (mean value form); Caprani, Madsen, Mean value
-// forms in interval analysis, 1980.
+// A field along a line is evaluated in interval arithmetic, together with its derivative
+// (field_part.hpp).
 #pragma once
 
 #include <array>

@@ -5,6 +5,7 @@
 #include "core/geometry/box/box.hpp"
 #include "core/geometry/checks.hpp"
 #include "core/geometry/implicit/field_line.hpp"
+#include "core/geometry/implicit/functions.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -97,6 +98,11 @@ void ImplicitShape::points_on(const VectorLanes& offsets, const VectorLanes& dir
 
 Surface ImplicitShape::surface(std::uint32_t face) const {
   return face >= first_box_face ? box_->surface(face - first_box_face) : surface_;
+}
+
+std::unique_ptr<const FaceFunctions> ImplicitShape::face_functions() const {
+  const auto [lower, upper] = box_->bounds();
+  return face_functions_of(ImplicitFunctions{program_, {.lower = lower, .upper = upper}});
 }
 
 void validate(const Implicit& implicit) {

@@ -36,6 +36,7 @@ class ImplicitShape final : public ShapeOfSinglePoints {
                  std::uint32_t face, bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return first_box_face + box_->face_count(); }
   Surface surface(std::uint32_t face) const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   /// Returns only its own bytes and those of the program, which others may share.
   std::size_t bytes() const override { return sizeof *this + box_->bytes() + program_->bytes(); }
 

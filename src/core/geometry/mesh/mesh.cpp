@@ -1,5 +1,6 @@
 #include "core/geometry/mesh/mesh.hpp"
 
+#include "core/geometry/mesh/functions.hpp"
 #include "core/geometry/mesh/met_triangles.hpp"
 
 namespace crt::core {
@@ -24,6 +25,11 @@ Surface MeshShape::surface(std::uint32_t face) const {
   Surface surface = facet(plane.first).surface(0);
   if (plane.turned) surface.direction = -surface.direction;
   return surface;
+}
+
+std::unique_ptr<const FaceFunctions> MeshShape::face_functions() const {
+  if (!is_solid()) return nullptr;
+  return face_functions_of(MeshFunctions{triangles_});
 }
 
 SurfacePieces MeshShape::pieces() const {

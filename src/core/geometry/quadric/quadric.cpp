@@ -2,6 +2,7 @@
 
 #include "core/geometry/angles.hpp"
 #include "core/geometry/near_line.hpp"
+#include "core/geometry/quadric/functions.hpp"
 #include "core/geometry/quadric/line.hpp"
 
 namespace crt::core {
@@ -82,6 +83,10 @@ Surface QuadricShape::quadric_surface(const QuadricForm& form) {
   for (double& size : surface.sizes) size = -size;
   surface.sizes.back() = form.unit;
   return surface;
+}
+
+std::unique_ptr<const FaceFunctions> QuadricShape::face_functions() const {
+  return face_functions_of(QuadricFunction{form_});
 }
 
 std::unique_ptr<const Shape> make_shape(const Quadric& quadric) {

@@ -28,6 +28,7 @@ class QuadricShape final : public ShapeOfPoints<QuadricShape> {
                    bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return quadric_surface(form_); }
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
   /// Returns the whole surface. Quadrics that are the same but for a power of two or the sign have

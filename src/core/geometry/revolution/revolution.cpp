@@ -6,6 +6,7 @@
 
 #include "core/geometry/checks.hpp"
 #include "core/geometry/profile/contour_share.hpp"
+#include "core/geometry/revolution/functions.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
 #include "text/format.hpp"
@@ -115,6 +116,10 @@ Surface RevolutionShape::surface(std::uint32_t face) const {
     surface.is_hollow = true;
   }
   return surface;
+}
+
+std::unique_ptr<const FaceFunctions> RevolutionShape::face_functions() const {
+  return face_functions_of(RevolutionFunctions(turned_));
 }
 
 std::size_t RevolutionShape::bytes() const {

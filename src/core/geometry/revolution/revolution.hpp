@@ -35,6 +35,7 @@ class RevolutionShape final : public Shape {
     return end_count + 2 * turned_.profile->wall_count();
   }
   Surface surface(std::uint32_t face) const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   /// Returns only its own bytes and those of the profile, which others may share.
   std::size_t bytes() const override;
 

@@ -5,6 +5,7 @@
 #include "core/geometry/checks.hpp"
 #include "core/geometry/clipped_span.hpp"
 #include "core/geometry/plane_face.hpp"
+#include "core/geometry/rounded_box/functions.hpp"
 #include "core/math/vector.hpp"
 #include "text/format.hpp"
 
@@ -175,6 +176,12 @@ Surface RoundedBoxShape::surface(std::uint32_t face) const {
           .position = bounds.lower + Vec3(0.0),
           .direction = bounds.upper - bounds.lower,
           .sizes = {layout_.radius * layout_.unit, static_cast<double>(face)}};
+}
+
+std::unique_ptr<const FaceFunctions> RoundedBoxShape::face_functions() const {
+  const Bounds bounds = box_.bounds();
+  return face_functions_of(RoundedBoxFunctions({.lower = bounds.lower, .upper = bounds.upper},
+                                               layout_.radius * layout_.unit, layout_.unit));
 }
 
 double largest_radius(const RoundedBox& box) {

@@ -52,6 +52,7 @@ class RoundedBoxShape final : public Shape {
                  std::uint32_t face, bool with_uv, SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 26; }
   Surface surface(std::uint32_t face) const override;
+  std::unique_ptr<const FaceFunctions> face_functions() const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

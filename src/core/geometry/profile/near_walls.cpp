@@ -1,0 +1,241 @@
+#include "core/geometry/profile/near_walls.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "core/geometry/cut_box.hpp"
+#include "core/geometry/open_nodes.hpp"
+#include "core/geometry/profile/plane_line.hpp"
+#include "core/geometry/profile/wall_faces.hpp"
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Returns the sign of an interval whose ends may be 0, or 0 if it has both.
+int sign_of(const Interval& a) {
+  return a.lo >= 0 ? 1 : (a.hi <= 0 ? -1 : 0);
+}
+
+bool contains(const PointOf<Interval>& rectangle, const Vec3& corner, double margin) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double place = corner[static_cast<int>(i)];
+    if (place < rectangle[i].lo - margin || place > rectangle[i].hi + margin) return false;
+  }
+  return true;
+}
+
+bool touches(const PointOf<Interval>& rectangle, const Bounds& box) {
+  return rectangle[0].hi >= box.lower.x && rectangle[0].lo <= box.upper.x &&
+         rectangle[1].hi >= box.lower.y && rectangle[1].lo <= box.upper.y;
+}
+
+/// Returns 1 if a rectangle is to the left of the line of a piece, -1 if to the right, and else 0.
+int side_of_piece(const Profile::Piece& piece, const PointOf<Interval>& rectangle) {
+  const PointOf<Interval> offset = relative_to(rectangle, piece.from);
+  if (piece.from.x == piece.to.x)
+    return piece.to.y > piece.from.y ? -sign_of(offset[0]) : sign_of(offset[0]);
+  if (piece.from.y == piece.to.y)
+    return piece.to.x > piece.from.x ? sign_of(offset[1]) : -sign_of(offset[1]);
+  const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+  return sign_of(along[0] * offset[1] - along[1] * offset[0]);
+}
+
+/// RegionLook looks at one rectangle.
+class RegionLook {
+ public:
+  RegionLook(const Profile& profile, bool is_turned_about_axis, const PointOf<Interval>& rectangle)
+      : profile_(profile), about_axis_(is_turned_about_axis), cut_box_(rectangle) {}
+
+  void look(NearFaces& near);
+
+ private:
+  const PointOf<Interval>& rectangle() const { return cut_box_.box(); }
+  void find_walls();
+  /// These add a wall that is near. What is not plain makes the whole look fail.
+  void add(std::uint32_t piece);
+  void add_flat(std::uint32_t number);
+  void add_arc(std::uint32_t number);
+  /// Returns the sign of the squared distance from an arc's circle, as sign_of().
+  int side_of_circle(const Profile::Arc& arc) const;
+  /// Returns whether two arcs that follow one another are the halves of a circle, whatever it is.
+  bool are_whole(const Profile::Piece& one, const Profile::Piece& other) const;
+  /// Returns the piece that has the rest of the circle of an arc, or else its own.
+  std::uint32_t other_half(std::uint32_t piece) const;
+  /// Adds a cut, unless there is one with this key.
+  void add_cut(const Cut& cut, std::size_t key);
+  Cut flat_cut(const Profile::Piece& piece) const;
+  Cut arc_cut(const Profile::Arc& arc) const;
+  /// Returns whether a corner is in the rectangle. On an axis none counts.
+  bool has_corner(const Profile::Piece& piece) const {
+    const auto counts = [&](const Vec3& corner) {
+      return !(about_axis_ && corner.x == 0) && contains(rectangle(), corner, 0);
+    };
+    return counts(piece.from) || counts(piece.to);
+  }
+
+  const Profile& profile_;
+  bool about_axis_;
+  CutBox cut_box_;
+  std::array<std::size_t, CutBox::most_cuts> keys_{};  ///< of the cuts
+  std::size_t cut_count_ = 0;
+  std::size_t wall_count_ = 0;
+  bool has_arcs_ = false;
+  bool has_repeats_ = false;  ///< straight walls on one line
+  bool has_corners_ = false;  ///< of straight walls
+  bool failed_ = false;
+};
+
+int RegionLook::side_of_circle(const Profile::Arc& arc) const {
+  const Interval x = rectangle()[0] - center_across_axis(arc, about_axis_);
+  const Interval y = rectangle()[1] - Interval::of(arc.center.y);
+  return sign_of(square(x) + square(y) - square(Interval::of(arc.radius)));
+}
+
+bool RegionLook::are_whole(const Profile::Piece& one, const Profile::Piece& other) const {
+  if (one.arc == invalid_index || other.arc == invalid_index) return false;
+  const Profile::Arc& a = profile_.arcs()[one.arc];
+  const Profile::Arc& b = profile_.arcs()[other.arc];
+  return a.first == b.first && a.is_right == b.is_right && one.from == other.to &&
+         one.to == other.from;
+}
+
+std::uint32_t RegionLook::other_half(std::uint32_t piece) const {
+  const auto pieces = profile_.pieces();
+  if (piece > 0 && are_whole(pieces[piece], pieces[piece - 1])) return piece - 1;
+  if (piece + 1 < pieces.size() && are_whole(pieces[piece], pieces[piece + 1])) return piece + 1;
+  return piece;
+}
+
+void RegionLook::add_cut(const Cut& cut, std::size_t key) {
+  ++wall_count_;
+  const std::span<const std::size_t> known = std::span(keys_).first(cut_count_);
+  if (std::find(known.begin(), known.end(), key) != known.end()) {
+    has_repeats_ = has_repeats_ || key < profile_.pieces().size();
+    return;
+  }
+  if (cut_count_ == CutBox::most_cuts) {
+    failed_ = true;
+    return;
+  }
+  keys_[cut_count_++] = key;
+  cut_box_.add(cut);
+}
+
+Cut RegionLook::flat_cut(const Profile::Piece& piece) const {
+  const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+  Cut cut{.slope = {along[1], -along[0], Interval{0, 0}}};
+  cut.at_middle =
+      component_along(relative_to(known_point(cut_box_.middle()), piece.from), cut.slope);
+  return cut;
+}
+
+Cut RegionLook::arc_cut(const Profile::Arc& arc) const {
+  const Interval radius = Interval::of(arc.radius);
+  const Interval x = Interval::of(cut_box_.middle().x) - center_across_axis(arc, about_axis_);
+  const Interval y = Interval::of(cut_box_.middle().y) - Interval::of(arc.center.y);
+  const Interval curving = Interval::of(0.5) / radius;
+  return {.curving = curving,
+          .slope = {x / radius, y / radius, Interval{0, 0}},
+          .at_middle = (square(x) + square(y) - square(radius)) * curving};
+}
+
+void RegionLook::add_flat(std::uint32_t number) {
+  const Profile::Piece& piece = profile_.pieces()[number];
+  Cut cut = flat_cut(piece);
+  cut.face = face_of_wall(number, false);
+  cut.flipped = face_of_wall(number, true);
+  has_corners_ = has_corners_ || has_corner(piece);
+  // All pieces of one straight line are one cut.
+  add_cut(cut, piece.first);
+}
+
+void RegionLook::add_arc(std::uint32_t number) {
+  Cut cut = arc_cut(profile_.arcs()[profile_.pieces()[number].arc]);
+  cut.face = face_of_wall(number, false);
+  cut.flipped = face_of_wall(number, true);
+  has_arcs_ = true;
+  add_cut(cut, profile_.pieces().size() + number);
+}
+
+void RegionLook::add(std::uint32_t number) {
+  const Profile::Piece& piece = profile_.pieces()[number];
+  if (about_axis_ && piece.arc == invalid_index && piece.from.x == 0 && piece.to.x == 0) return;
+  if (piece.arc == invalid_index) {
+    Bounds box;
+    box.include(piece.from);
+    box.include(piece.to);
+    if (touches(rectangle(), box) && side_of_piece(piece, rectangle()) == 0) add_flat(number);
+    return;
+  }
+  const Profile::Arc& arc = profile_.arcs()[piece.arc];
+  const int of_circle = side_of_circle(arc);
+  if (const std::uint32_t other = other_half(number); other != number) {
+    // Both chords are one, and no boundary.
+    if (of_circle == 0) add_arc(std::min(number, other));
+    return;
+  }
+  const int side = side_of_piece(piece, rectangle());
+  if (side != 0) {
+    if (of_circle == 0 && (side < 0) == arc.is_right) add_arc(number);
+    return;
+  }
+  // The line of the chord passes. Within the circle it is no boundary but next to the corners.
+  constexpr double safety = 4;
+  const double margin = safety * arc.margin * glm::length(piece.to - piece.from);
+  failed_ = failed_ || of_circle == 0 || contains(rectangle(), piece.from, margin) ||
+            contains(rectangle(), piece.to, margin);
+}
+
+void RegionLook::find_walls() {
+  OpenNodes<std::uint32_t, 128> open;
+  open.push(0);
+  while (!open.empty() && !failed_) {
+    profile_.tree().for_each_child(open.pop(), [&](Bvh::Child child, const Bounds& box) {
+      if (!touches(rectangle(), box)) return;
+      if (!child.is_leaf()) return open.push(child.index());
+      for (const std::uint32_t piece :
+           profile_.tree().order().subspan(child.index(), child.count()))
+        add(piece);
+    });
+    constexpr std::size_t most_walls = 16;
+    failed_ = failed_ || wall_count_ > most_walls;
+  }
+}
+
+void RegionLook::look(NearFaces& near) {
+  find_walls();
+  // Walls without ends here go all the way through, and the region is on one side of each.
+  const bool takes_turns = !has_corners_ && !has_repeats_;
+  if (failed_ || (has_arcs_ && !takes_turns)) return near.say(NearFaces::Kind::unknown);
+  const auto is_inside = [&](const Vec3& point) -> std::optional<bool> {
+    const ObjectRay across{.origin = point};
+    return PlaneLine(across).is_inside(profile_);
+  };
+  if (takes_turns) return cut_box_.look_by_turns(is_inside, near);
+  cut_box_.look(is_inside, near);
+}
+
+}  // namespace
+
+Interval center_across_axis(const Profile::Arc& arc, bool is_turned_about_axis) {
+  constexpr double nearly = 0x1p-48;
+  if (!is_turned_about_axis || std::abs(arc.center.x) > nearly * arc.radius)
+    return Interval::of(arc.center.x);
+  return {std::min(arc.center.x, 0.0), std::max(arc.center.x, 0.0)};
+}
+
+void look_at_region(const Profile& profile, bool is_turned_about_axis,
+                    const PointOf<Interval>& rectangle, NearFaces& near) {
+  const Bounds& bounds = profile.bounds();
+  const bool is_beyond = rectangle[0].hi <= bounds.lower.x || rectangle[0].lo >= bounds.upper.x ||
+                         rectangle[1].hi <= bounds.lower.y || rectangle[1].lo >= bounds.upper.y;
+  if (is_beyond) return near.say(NearFaces::Kind::outside);
+  if (!(rectangle[0].width() < infinity && rectangle[1].width() < infinity))
+    return near.say(NearFaces::Kind::unknown);
+  RegionLook(profile, is_turned_about_axis, rectangle).look(near);
+}
+
+}  // namespace crt::core
