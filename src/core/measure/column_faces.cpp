@@ -42,7 +42,7 @@ std::optional<ColumnHeight> find_height(const CellSolid& solid, const CellLook& 
   // Each step finds the terms of one degree more.
   for (std::size_t step = 1; step < PatchSeries::degree; ++step) {
     const PatchSeries off = solid.value(face, frame.places_of(height));
-    for (std::size_t i = 0; i < PatchSeries::term_count; ++i)
+    for (std::size_t i = 0; i <= PatchSeries::place(0, step + 1); ++i)
       height.terms[i] -= off.terms[i] / slopes[frame.c];
   }
   const double off = range_of(solid.value(face, frame.places_of(height))).magnitude();
