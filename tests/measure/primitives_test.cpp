@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <variant>
 #include <vector>
 
@@ -44,6 +45,7 @@ double sum_of_chords(const Entity& entity, const BoundingBox& box, int lines) {
 
 TEST_CASE("every bounded primitive has the volume that rays see, alone and cut") {
   constexpr int lines = 64;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   for (std::size_t kind = 0; kind < std::variant_size_v<Primitive>; ++kind) {
     Random random(100 + kind);
     for (int instance = 0; instance < 3; ++instance) {
@@ -62,12 +64,14 @@ TEST_CASE("every bounded primitive has the volume that rays see, alone and cut")
       for (const Entity& solid : {whole, cut}) {
         const double chords = sum_of_chords(solid, box, lines);
         const double off = 0.02 * largest;
-        const Interval measured = volume(solid, {.relative_width = 1e-3, .seconds = 0.5});
+        const bool is_custom = kind + 1 == std::variant_size_v<Primitive>;
+        // Of a custom solid only the bounds are known, however long one looks.
+        const Interval measured =
+            volume(solid, {.relative_width = 0.05, .seconds = is_custom ? 1e-3 : infinite});
         CHECK(measured.lower <= chords + off);
         CHECK(measured.upper >= chords - off);
         CHECK(measured.lower >= 0);
-        const bool is_custom = kind + 1 == std::variant_size_v<Primitive>;
-        if (!is_custom) CHECK(measured.width() <= off);
+        if (!is_custom) CHECK(measured.width() <= 0.05 * measured.upper);
       }
     }
   }
