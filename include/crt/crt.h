@@ -662,8 +662,9 @@ typedef struct crt_mesh {
   const double* uv;           /**< 2 * uv_count numbers, up to 1e30 in magnitude; default NULL */
   uint64_t uv_count;          /**< default 0 */
   const uint32_t* uv_indices; /**< name the (u, v) of the corners as normal_indices do normals */
-  /** Has material_count materials. They stand in the place of the default one: a material that the
-   * whole entity gets is put in their place. Default NULL. */
+  /** Has material_count materials, or NULL for those that `principled` has. They stand in the place
+   * of the default one: a material that the whole entity gets is put in their place. Default
+   * NULL. */
   const crt_material* const* materials;
   uint64_t material_count; /**< default 0 */
   /** Has triangle_count numbers that name the triangles' materials. Default NULL: all have the
@@ -673,6 +674,10 @@ typedef struct crt_mesh {
    * surface across their edge. Their normals are then computed, and those above left alone. 0
    * leaves all flat. Default -1: the normals above, if there are any. */
   double smooth;
+  /** Has material_count principled materials, or NULL for those that `materials` has. It is an
+   * error if both have one of the same number, or neither. `materials` may be NULL if all are
+   * here. Default NULL: all are in `materials`. Since 1.1. */
+  const crt_principled* const* principled;
 } crt_mesh;
 
 /**

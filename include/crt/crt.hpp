@@ -22,6 +22,7 @@
 #include <crt/job.hpp>
 #include <crt/light.hpp>
 #include <crt/material.hpp>
+#include <crt/measure.hpp>
 #include <crt/mesh.hpp>
 #include <crt/mesh_file.hpp>
 #include <crt/pattern.hpp>

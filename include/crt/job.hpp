@@ -1,6 +1,7 @@
 #pragma once
 
 #include <crt/render.hpp>
+#include <functional>
 #include <memory>
 
 namespace crt {
@@ -29,6 +30,13 @@ class RenderJob {
   /// Returns the picture so far, in which pixels that are not yet rendered are transparent black.
   /// It may be called after the end too, even if the job was cancelled or failed.
   Image snapshot() const;
+
+  /// Returns the picture so far as Settings::denoise has it: without noise, and without a claim of
+  /// its accuracy. Without that setting the filter sees no more than the region. It may be called
+  /// as snapshot() may. Any of the threads asks `go_on`, which is to return false for an end.
+  /// Throws Error: cancelled, invalid_argument without RenderOptions::denoisable or
+  /// Settings::denoise.
+  Image denoised(const std::function<bool()>& go_on = {}) const;
 
   /// Asks the job to stop, which it does within a few tiles. After its end this has no effect.
   void cancel();

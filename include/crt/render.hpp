@@ -87,6 +87,9 @@ struct RenderOptions {
   /// go over all of it one by one, as they do with a time budget. Without it each tile gets many
   /// samples at once, which takes less time as a whole. The picture is the same.
   bool evenly = false;
+  /// Keeps what a filter needs to know of each pixel, so that RenderJob::denoised() can be asked
+  /// for without Settings::denoise. The picture is the same.
+  bool denoisable = false;
   /// Gets the messages of the render, a line each without its end. The thread that calls render()
   /// calls it.
   std::function<void(LogLevel, std::string_view)> log{};

@@ -302,8 +302,9 @@ FIELDS = {
         ),
         (
             "const crt_material* const* materials",
-            "Has material_count materials. They stand in the place of the default one: a "
-            "material that the whole entity gets is put in their place. Default None.",
+            "Has material_count materials, or None for those that `principled` has. They stand "
+            "in the place of the default one: a material that the whole entity gets is put in "
+            "their place. Default None.",
         ),
         ("uint64_t material_count", "default 0"),
         (
@@ -317,6 +318,12 @@ FIELDS = {
             "one round surface across their edge. Their normals are then computed, and those "
             "above left alone. 0 leaves all flat. Default -1: the normals above, if there are "
             "any.",
+        ),
+        (
+            "const crt_principled* const* principled",
+            "Has material_count principled materials, or None for those that `materials` has. "
+            "It is an error if both have one of the same number, or neither. `materials` may be"
+            " None if all are here. Default None: all are in `materials`. Since 1.1.",
         ),
     ),
     "crt_mesh_options": (

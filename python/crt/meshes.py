@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arguments
 from ._library import create
 from ._materials import AnyMaterial
-from ._structs import Struct, growable, reference
+from ._structs import Struct, growable, require_type
 from .entities import Entity
 from .primitives import _Primitive
-from .values import Material
+from .values import Material, PrincipledMaterial
 
 __all__ = ["Mesh", "MeshReport", "load_mesh", "mesh_report"]
 
@@ -120,9 +120,9 @@ class Mesh(_Primitive):
     `normals` (k x 3, for shading) and `uv` (k x 2) are one for each position, or are named for the
     corners of each triangle by `normal_indices` and `uv_indices` (m x 3). With `smooth`, an angle
     in radians, normals are computed instead, across edges of triangles that are at most that far
-    apart. `material_of_triangle` (m) names one of the `materials` for each triangle; without it all
-    have the first. `material` takes the place of all of them. Where these lists of indices have
-    0xffffffff there is none."""
+    apart. `material_of_triangle` (m) names one of the `materials` for each triangle, which may be
+    of either kind; without it all have the first. `material` takes the place of all of them. Where
+    these lists of indices have 0xffffffff there is none."""
 
     def __init__(
         self,
@@ -133,7 +133,7 @@ class Mesh(_Primitive):
         normal_indices: ArrayLike | None = None,
         uv: ArrayLike | None = None,
         uv_indices: ArrayLike | None = None,
-        materials: Sequence[Material] = (),
+        materials: Sequence[AnyMaterial] = (),
         material_of_triangle: ArrayLike | None = None,
         smooth: SupportsFloat | None = None,
         fill: str | None = None,
@@ -204,14 +204,17 @@ def _angle(value: SupportsFloat, name: str) -> float:
     return angle
 
 
-def _put_materials(mesh: _MeshStruct, materials: Sequence[Material]) -> None:
+def _put_materials(mesh: _MeshStruct, materials: Sequence[AnyMaterial]) -> None:
     given: list[Any] = list(materials)
     if not given:
         return
     for i, material in enumerate(given):
-        reference(material, "crt_material", f"Mesh: materials[{i}]")
-    addresses = (ctypes.c_void_p * len(given))(*map(ctypes.addressof, given))
-    mesh.put("materials", "material_count", addresses)
+        if not isinstance(material, PrincipledMaterial):
+            require_type(material, "crt_material", f"Mesh: materials[{i}]")
+    kinds: dict[str, type[Any]] = {"materials": Material, "principled": PrincipledMaterial}
+    for field, kind in kinds.items():
+        addresses = [ctypes.addressof(m) if isinstance(m, kind) else None for m in given]
+        mesh.put(field, "material_count", (ctypes.c_void_p * len(given))(*addresses))
     mesh._kept["_owners"] = given
 
 

@@ -7,6 +7,7 @@
 
 #include "capi/numbers.hpp"
 #include "capi/structs.hpp"
+#include "text/format.hpp"
 
 namespace crt::capi {
 
@@ -72,6 +73,19 @@ std::vector<TriangleIndices> to_corners(const std::uint32_t* numbers, std::uint6
   return to_triangles(numbers, triangles, "indices");
 }
 
+/// Returns a material that either of two lists has.
+SharedMaterial material_of_number(const crt_mesh& mesh, std::uint64_t number) {
+  const crt_principled* const principled = mesh.principled ? mesh.principled[number] : nullptr;
+  const crt_material* const material = mesh.materials ? mesh.materials[number] : nullptr;
+  if (principled == nullptr) {
+    require(material, "materials");
+    return to_material(material);
+  }
+  if (material != nullptr)
+    reject(text::format("principled[{}]", number), "must be NULL, as materials has that number");
+  return to_material(principled);
+}
+
 MeshAttributes to_attributes(const crt_mesh& mesh) {
   MeshAttributes attributes;
   attributes.normals = to_vectors(mesh.normals, mesh.normal_count, "normals");
@@ -81,11 +95,8 @@ MeshAttributes to_attributes(const crt_mesh& mesh) {
         return std::array<double, 2>{p[0], p[1]};
       });
   attributes.uv_indices = to_corners(mesh.uv_indices, mesh.triangle_count);
-  if (mesh.material_count > 0) require(mesh.materials, "materials");
-  for (std::uint64_t i = 0; i < mesh.material_count; ++i) {
-    require(mesh.materials[i], "materials");
-    attributes.materials.emplace_back(to_material(mesh.materials[i]));
-  }
+  for (std::uint64_t i = 0; i < mesh.material_count; ++i)
+    attributes.materials.push_back(material_of_number(mesh, i));
   if (mesh.material_of_triangle != nullptr) {
     attributes.material_of_triangle.assign(mesh.material_of_triangle,
                                            mesh.material_of_triangle + mesh.triangle_count);

@@ -64,7 +64,8 @@ std::span<const CField> c_fields<crt_mesh>() {
                                         CRT_FIELD(S, materials),
                                         CRT_FIELD(S, material_count),
                                         CRT_FIELD(S, material_of_triangle),
-                                        CRT_FIELD(S, smooth)};
+                                        CRT_FIELD(S, smooth),
+                                        CRT_FIELD(S, principled)};
   return fields;
 }
 

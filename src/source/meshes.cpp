@@ -184,21 +184,14 @@ class MeshWriter {
     const MeshAttributes& attributes = parts_.attributes;
     if (attributes.materials.empty()) return;
     const Syntax& syntax = program_.syntax();
-    std::vector<std::string> names;
-    for (const SharedMaterial& material : attributes.materials) {
-      if (material.principled() != nullptr && !syntax.is_cpp()) {
-        throw Error(
-            ErrorCode::unsupported,
-            "a mesh has principled materials of its own, which C and Python cannot say: give "
-            "the whole mesh one material");
-      }
-      names.push_back((syntax.is_c() ? "&" : "") + material_name(program_, material));
-    }
     if (syntax.is_c()) {
-      const std::string pointers = program_.local_array("materials", "const crt_material*", names);
-      fields_.add_text("", "materials", pointers);
-      fields_.add_text("", "material_count", std::to_string(names.size()));
+      add_material_pointers("materials", "const crt_material*", false);
+      add_material_pointers("principled", "const crt_principled*", true);
+      fields_.add_text("", "material_count", std::to_string(attributes.materials.size()));
     } else {
+      std::vector<std::string> names;
+      for (const SharedMaterial& material : attributes.materials)
+        names.push_back(material_name(program_, material));
       fields_.add_text("materials", "materials", syntax.list(names));
     }
     std::vector<std::string> numbers;
@@ -207,6 +200,18 @@ class MeshWriter {
     add_array("material_of_triangle",
               program_.array("material_of_triangle", syntax.is_cpp() ? "std::uint32_t" : "uint32_t",
                              numbers));
+  }
+
+  /// Adds those materials that are of one kind, if there are any. In C each kind has a list.
+  void add_material_pointers(const char* field, const char* type, bool is_principled) {
+    std::vector<std::string> pointers;
+    bool has_any = false;
+    for (const SharedMaterial& material : parts_.attributes.materials) {
+      const bool is_here = (material.principled() != nullptr) == is_principled;
+      pointers.push_back(is_here ? "&" + material_name(program_, material) : "NULL");
+      has_any = has_any || is_here;
+    }
+    if (has_any) fields_.add_text("", field, program_.local_array(field, type, pointers));
   }
 
   Program& program_;

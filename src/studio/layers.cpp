@@ -37,7 +37,8 @@ void Layers::add(Layer layer) {
 }
 
 EncodedPicture encoded(const Layer& layer, const Display& display, std::uint32_t number) {
-  const Image& image = *layer.image;
+  const bool is_denoised = display.denoise && layer.denoised;
+  const Image& image = is_denoised ? *layer.denoised : *layer.image;
   EncodedPicture picture{layer.kind,
                          number,
                          layer.revision,
@@ -48,6 +49,7 @@ EncodedPicture encoded(const Layer& layer, const Display& display, std::uint32_t
                          display == Display{}
                              ? displayed(image, layer.channel)
                              : displayed(displayed_by(image, display), layer.channel)};
+  picture.is_denoised = image.settings().denoise && layer.channel == Channel::color;
   if (layer.region && layer.kind != PictureKind::draft) {
     picture.rgba = placed(picture.rgba, *layer.region, layer.width, layer.height);
     picture.width = picture.full_width;

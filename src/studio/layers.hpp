@@ -1,5 +1,5 @@
 // The page puts pictures over one another: a draft, then what of the picture is rendered. They are
-// kept as light, so that they can be shown again in another exposure.
+// kept as light, so that they can be shown again in another exposure, or without noise.
 #pragma once
 
 #include <crt/image.hpp>
@@ -21,7 +21,8 @@ struct Layer {
   std::uint32_t revision = 0;
   int width = 0;  ///< of the whole picture
   int height = 0;
-  std::optional<Region> region{};  ///< the part of it that the image is, if it is no draft
+  std::optional<Region> region{};           ///< the part of it that the image is, if it is no draft
+  std::shared_ptr<const Image> denoised{};  ///< is the image without noise, if that is known
 };
 
 /// Layers are what the page shows, the lowest first.

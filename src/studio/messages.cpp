@@ -140,23 +140,25 @@ json scene_message(const View& view) {
 
 json finished_message(const Revision& revision, const Image& image) {
   const RenderStats& stats = image.stats();
-  return {{"type", "finished"},
-          {"revision", revision.number},
-          {"stats",
-           {{"camera rays", stats.camera_rays},
-            {"shadow rays", stats.shadow_rays},
-            {"reflection rays", stats.reflection_rays},
-            {"refraction rays", stats.refraction_rays},
-            {"intersection tests", stats.intersection_tests},
-            {"exact fallbacks", stats.escalations},
-            {"samples of a pixel (mean)", stats.samples_mean},
-            {"passes", stats.passes},
-            {"error of 95 of 100 pixels", stats.half_width_95},
-            {"error of pixels (root mean square)", stats.half_width_rms},
-            {"threads", stats.threads},
-            {"seconds of preparing", stats.prepare_seconds},
-            {"seconds of tracing", stats.trace_seconds},
-            {"bytes of memory", stats.memory.total()}}}};
+  json result = {{"type", "finished"},
+                 {"revision", revision.number},
+                 {"stats",
+                  {{"camera rays", stats.camera_rays},
+                   {"shadow rays", stats.shadow_rays},
+                   {"reflection rays", stats.reflection_rays},
+                   {"refraction rays", stats.refraction_rays},
+                   {"intersection tests", stats.intersection_tests},
+                   {"exact fallbacks", stats.escalations},
+                   {"samples of a pixel (mean)", stats.samples_mean},
+                   {"passes", stats.passes},
+                   {"threads", stats.threads},
+                   {"seconds of preparing", stats.prepare_seconds},
+                   {"seconds of tracing", stats.trace_seconds},
+                   {"bytes of memory", stats.memory.total()}}}};
+  if (image.settings().denoise) return result;  // nothing is known of its error
+  result["stats"]["error of 95 of 100 pixels"] = stats.half_width_95;
+  result["stats"]["error of pixels (root mean square)"] = stats.half_width_rms;
+  return result;
 }
 
 json objects_json() {

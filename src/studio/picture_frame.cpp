@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t magic = 0x46545243;  // "CRTF"
 constexpr std::uint32_t last_frame = 0x100;
+constexpr std::uint32_t denoised_frame = 0x200;
 constexpr std::size_t bytes_of_pixel = 4;
 /// A frame has about so many bytes of pixels at most.
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
@@ -90,7 +91,9 @@ std::vector<std::string> frames_of(const EncodedPicture& picture, const EncodedP
     std::string& bytes = frames.emplace_back();
     bytes.reserve(40 + count * stride);
     for (const std::uint32_t number :
-         {magic, static_cast<std::uint32_t>(picture.kind) | (is_last ? last_frame : 0),
+         {magic,
+          static_cast<std::uint32_t>(picture.kind) | (is_last ? last_frame : 0) |
+              (picture.is_denoised ? denoised_frame : 0),
           picture.number, picture.revision, picture.full_width, picture.full_height, picture.width,
           picture.height, row, count})
       put(bytes, number);

@@ -24,6 +24,7 @@ struct EncodedPicture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::uint8_t> rgba{};
+  bool is_denoised = false;  ///< by a filter, so that nothing is known of its error
 };
 
 /// Returns how many pixels of a picture, across and down, become one of those that are shown. It is

@@ -64,7 +64,10 @@ void Renderer::set_script(Revision revision, std::optional<ViewOptions> options)
 
 void Renderer::set_options(ViewOptions options) {
   const std::lock_guard lock(mutex_);
-  if (differ_in_display_alone(options, asked_options_)) {
+  // Only a render that was begun for it keeps what a filter needs.
+  const bool needs_guides = options.display.denoise && !options_.display.denoise &&
+                            options.channel == Channel::color && changes_ == change_;
+  if (differ_in_display_alone(options, asked_options_) && !needs_guides) {
     ++display_changes_;
   } else {
     if (options.t != asked_options_.t) ++script_changes_;
@@ -154,8 +157,10 @@ void Renderer::render_newest() {
   {
     const std::lock_guard lock(mutex_);
     script_is_new = script_changes_ != script_change_;
+    const bool is_to_be_denoised = options_.display.denoise != asked_options_.display.denoise &&
+                                   differ_in_display_alone(options_, asked_options_);
     has_drafts = !script_is_new && are_equal(camera_, asked_camera_) &&
-                 differ_in_region_alone(options_, asked_options_);
+                 (differ_in_region_alone(options_, asked_options_) || is_to_be_denoised);
     options_ = asked_options_;
     script_change_ = script_changes_;
     change_ = changes_;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <crt/job.hpp>
 #include <crt/prepared_scene.hpp>
 #include <crt/render.hpp>
 #include <crt/script.hpp>
@@ -106,17 +107,20 @@ class Renderer {
   const std::vector<BoundingBox>& boxes();
   void draw_drafts();
   void render_whole();
-  void draw_draft(const Scene& draft, bool may_be_cancelled);
+  void draw_draft(Scene draft, bool may_be_cancelled);
   bool takes_longer(int samples) const;
   int first_step() const;
   bool is_old() const;
   bool script_is_old() const;
   RenderOptions render_options() const;
-  void finish(const std::shared_ptr<const Image>& image);
+  bool may_denoise() const;
+  std::shared_ptr<const Image> denoised(const RenderJob& job) const;
+  void finish(const RenderJob& job);
   void say(RenderState::Phase phase, double progress = 0, std::string message = {}) const;
   bool has_taken() const;
   bool may_send() const;
-  void send(PictureKind kind, std::shared_ptr<const Image> image);
+  void send(PictureKind kind, std::shared_ptr<const Image> image,
+            std::shared_ptr<const Image> denoised = nullptr);
   bool is_to_be_shown_again() const;
   void send(const Layer& layer);
   void show_again();

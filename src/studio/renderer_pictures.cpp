@@ -68,7 +68,8 @@ bool Renderer::takes_longer(int samples) const {
          uneven_seconds * samples_a_second_;
 }
 
-void Renderer::draw_draft(const Scene& draft, bool may_be_cancelled) {
+void Renderer::draw_draft(Scene draft, bool may_be_cancelled) {
+  if (may_denoise()) draft.settings.denoise = true;
   RenderOptions options = render_options();
   options.progress = [&](double) { return may_be_cancelled ? !is_old() : !script_is_old(); };
   const Clock::time_point begin = Clock::now();
@@ -90,6 +91,7 @@ RenderOptions Renderer::render_options() const {
   options.threads = threads_;
   options.aovs = aovs_of(options_.channel);
   options.evenly = takes_longer(view_->scene.settings.min_samples);
+  options.denoisable = may_denoise();
   return options;
 }
 
@@ -120,25 +122,44 @@ void Renderer::render_whole() {
     if (look - last_look < interval) continue;
     say(Phase::rendering, job.progress());
     if (may_send() && !job.finished())
-      send(PictureKind::progress, std::make_shared<const Image>(job.snapshot()));
+      send(PictureKind::progress, std::make_shared<const Image>(job.snapshot()), denoised(job));
     last_look = Clock::now();
     interval = std::max<Clock::duration>(look_interval, looking_pause * (last_look - look));
   }
   try {
-    finish(std::make_shared<const Image>(job.wait()));
+    finish(job);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::cancelled) throw;
     say(Phase::cancelled, job.progress());
   }
 }
 
-void Renderer::finish(const std::shared_ptr<const Image>& image) {
+/// Says whether what is rendered may be shown without noise, though the scene does not say so.
+bool Renderer::may_denoise() const {
+  return options_.display.denoise && options_.channel == Channel::color &&
+         !view_->scene.settings.denoise;
+}
+
+/// Returns what a job has without its noise, or null if nobody wants that.
+std::shared_ptr<const Image> Renderer::denoised(const RenderJob& job) const {
+  if (!may_denoise()) return nullptr;
+  try {
+    return std::make_shared<const Image>(job.denoised([this] { return !is_old(); }));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::cancelled) throw;
+    return nullptr;
+  }
+}
+
+/// Takes the picture of a job. Throws what ended that, if it has none.
+void Renderer::finish(const RenderJob& job) {
+  const auto image = std::make_shared<const Image>(job.wait());
   const bool is_part = clipped(options_.region, view_->scene.settings).has_value();
   if (!is_part && !is_geometric(options_.channel) && options_.mode == ViewMode::rendered) {
     const std::lock_guard lock(mutex_);
     picture_ = image;
   }
-  send(is_part ? PictureKind::progress : PictureKind::final, image);
+  send(is_part ? PictureKind::progress : PictureKind::final, image, denoised(job));
   events_.finished(revision_, *image);
   say(Phase::done, 1);
 }
@@ -158,10 +179,11 @@ bool Renderer::is_to_be_shown_again() const {
   return display_changes_ != display_change_ && has_taken();
 }
 
-void Renderer::send(PictureKind kind, std::shared_ptr<const Image> image) {
+void Renderer::send(PictureKind kind, std::shared_ptr<const Image> image,
+                    std::shared_ptr<const Image> denoised) {
   const Settings& settings = view_->scene.settings;
   layers_.add({kind, std::move(image), options_.channel, revision_.number, settings.width,
-               settings.height, clipped(options_.region, settings)});
+               settings.height, clipped(options_.region, settings), std::move(denoised)});
   send(layers_.all().back());
 }
 

@@ -70,6 +70,7 @@ Display display_of(const json& value) {
   if (value.contains("toneMap") && !value.at("toneMap").is_null())
     display.tone_map =
         named<ToneMap>(tone_maps, value.at("toneMap").get<std::string>(), "tone map");
+  display.denoise = value.value("denoise", false);
   return display;
 }
 

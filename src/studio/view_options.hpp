@@ -25,11 +25,12 @@ struct SectionPlane {
   bool operator==(const SectionPlane&) const = default;
 };
 
-/// A Display says how light is shown, beside what the scene's settings say. No render depends on
-/// it.
+/// A Display says how light is shown, beside what the scene's settings say. No picture that is
+/// rendered depends on it.
 struct Display {
   double exposure = 0;                ///< stops, beside those of the settings
   std::optional<ToneMap> tone_map{};  ///< in the place of that of the settings
+  bool denoise = false;               ///< also where the settings do not have it
 
   bool operator==(const Display&) const = default;
 };

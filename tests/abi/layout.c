@@ -39,7 +39,7 @@ VALUE(CRT_MAPPING_PLANAR, 1);
 VALUE(CRT_MAPPING_CYLINDRICAL, 2);
 VALUE(CRT_MAPPING_CUBIC, 3);
 
-SIZE(crt_mesh, 120);
+SIZE(crt_mesh, 128);
 AT(crt_mesh, struct_size, 0);
 AT(crt_mesh, reserved, 4);
 AT(crt_mesh, positions, 8);
@@ -56,6 +56,7 @@ AT(crt_mesh, materials, 88);
 AT(crt_mesh, material_count, 96);
 AT(crt_mesh, material_of_triangle, 104);
 AT(crt_mesh, smooth, 112);
+AT(crt_mesh, principled, 120);
 
 SIZE(crt_mesh_options, 24);
 AT(crt_mesh_options, struct_size, 0);

@@ -118,6 +118,97 @@ TEST_CASE("wrong numbers of a principled material are errors that name the field
   CHECK(says("emission"));
 }
 
+TEST_CASE("each triangle of a mesh has a material of either kind") {
+  const double corners[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+  const std::uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+  crt_material plain;
+  REQUIRE(crt_material_init(&plain, sizeof plain) == CRT_OK);
+  plain.color[1] = 0.25;
+  crt_principled brass = principled();
+  brass.metallic = 1;
+  brass.roughness = 0.25;
+  crt_mesh mesh;
+  REQUIRE(crt_mesh_init(&mesh, sizeof mesh) == CRT_OK);
+  CHECK(mesh.principled == nullptr);
+  mesh.positions = corners;
+  mesh.vertex_count = 4;
+  mesh.indices = indices;
+  mesh.triangle_count = 2;
+  const crt_material* const materials[] = {&plain, nullptr};
+  const crt_principled* const principled[] = {nullptr, &brass};
+  const std::uint32_t of_triangles[] = {0, 1};
+  mesh.materials = materials;
+  mesh.principled = principled;
+  mesh.material_count = 2;
+  mesh.material_of_triangle = of_triangles;
+  const auto shown = [](const std::vector<crt_entity*>& entities) {
+    const SceneHandle scene = new_scene();
+    for (crt_entity* entity : entities)
+      REQUIRE(crt_scene_add_entity(scene.get(), entity) == CRT_OK);
+    return pixels_of(scene.get());
+  };
+  const EntityHandle made_of_both =
+      made<EntityHandle>([&](crt_entity** out) { return crt_mesh_create_with(&mesh, out); });
+  // The same triangles by themselves, each as an entity that has its material.
+  const EntityHandle first = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_mesh_create(corners, 4, indices, 1, out); });
+  const EntityHandle second = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_mesh_create(corners, 4, indices + 3, 1, out); });
+  const EntityHandle first_worn = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_entity_with_material(first.get(), &plain, out); });
+  const EntityHandle second_worn = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_entity_with_principled(second.get(), &brass, out); });
+  const std::vector<float> wanted = shown({first_worn.get(), second_worn.get()});
+  CHECK(shown({made_of_both.get()}) == wanted);
+  const EntityHandle one_kind = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_entity_with_principled(first.get(), &brass, out); });
+  CHECK(shown({one_kind.get(), second_worn.get()}) != wanted);
+
+  mesh.materials = nullptr;
+  const crt_principled* const all_principled[] = {&brass, &brass};
+  mesh.principled = all_principled;
+  const EntityHandle made_of_one =
+      made<EntityHandle>([&](crt_entity** out) { return crt_mesh_create_with(&mesh, out); });
+  CHECK(shown({made_of_one.get()}) == shown({one_kind.get(), second_worn.get()}));
+
+  crt_entity* out = nullptr;
+  mesh.principled = principled;
+  CHECK(crt_mesh_create_with(&mesh, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("materials must not be NULL"));
+  mesh.materials = materials;
+  mesh.principled = all_principled;
+  CHECK(crt_mesh_create_with(&mesh, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("principled[0] must be NULL, as materials has that number"));
+  mesh.principled = principled;
+  brass.metallic = 2;
+  CHECK(crt_mesh_create_with(&mesh, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("metallic"));
+  CHECK(out == nullptr);
+}
+
+TEST_CASE("a struct that ends before the principled materials of a mesh has none") {
+  const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::uint32_t indices[] = {0, 1, 2};
+  const crt_principled brass = principled();
+  const crt_principled* const beyond[] = {&brass};
+  crt_material plain;
+  REQUIRE(crt_material_init(&plain, sizeof plain) == CRT_OK);
+  const crt_material* const materials[] = {&plain};
+  crt_mesh mesh;
+  REQUIRE(crt_mesh_init(&mesh, offsetof(crt_mesh, principled)) == CRT_OK);
+  mesh.positions = corners;
+  mesh.vertex_count = 3;
+  mesh.indices = indices;
+  mesh.triangle_count = 1;
+  mesh.material_count = 1;
+  mesh.materials = materials;
+  mesh.principled = beyond;
+  CHECK(made<EntityHandle>([&](crt_entity** out) { return crt_mesh_create_with(&mesh, out); }));
+  mesh.struct_size = sizeof mesh;
+  crt_entity* out = nullptr;
+  CHECK(crt_mesh_create_with(&mesh, &out) == CRT_ERROR_INVALID_ARGUMENT);
+}
+
 TEST_CASE("a material of a program of 1.0 gives off no light") {
   crt_material material;
   REQUIRE(crt_material_init(&material, offsetof(crt_material, emission)) == CRT_OK);

@@ -121,6 +121,33 @@ class Primitives(unittest.TestCase):
             with self.assertRaises((ValueError, crt.Error), msg=wrong):
                 crt.Mesh(corners, triangles, **wrong)
 
+    def test_triangles_of_a_mesh_have_materials_of_either_kind(self):
+        corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]
+        brass = crt.PrincipledMaterial(color=(0, 0.5, 1), metallic=1)
+        materials = [crt.Material(color=(1, 0, 0)), brass]
+        settings = crt.Settings(width=1, height=1)
+
+        def colors_of(**attributes):
+            mesh = crt.Mesh(corners, [[0, 1, 2], [1, 3, 2]], **attributes)
+            for x in (0.25, 0.75):
+                camera = crt.Camera(position=(x, x, -1), pointing=(x, x, 0))
+                scene = crt.Scene([mesh], camera=camera, settings=settings)
+                image = scene.prepare().render(aovs=["albedo"])
+                yield [float(image.channels[f"albedo.{c}"][0, 0]) for c in "RGB"]
+
+        red, blue = [1, 0, 0], [0, 0.5, 1]
+        both = {"materials": materials, "material_of_triangle": [0, 1]}
+        self.assertEqual(list(colors_of(**both)), [red, blue])
+        self.assertEqual(list(colors_of(**{**both, "material_of_triangle": [1, 0]})), [blue, red])
+        self.assertEqual(list(colors_of(materials=[brass])), [blue, blue])
+        self.assertEqual(list(colors_of(**both, material=brass)), [blue, blue])
+        for wrong in (None, "brass", crt.Camera()):
+            with self.assertRaisesRegex(TypeError, r"Mesh: materials\[1\] must be a Material"):
+                crt.Mesh(corners, [[0, 1, 2]], materials=[brass, wrong])
+        brass.metallic = 2
+        with self.assertRaisesRegex(crt.Error, "metallic"):
+            crt.Mesh(corners, [[0, 1, 2]], materials=[brass])
+
     def test_a_mesh_has_a_rule_of_what_is_inside_and_a_report(self):
         bits = np.array([[i >> axis & 1 for axis in range(3)] for i in range(8)])
         sides = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <crt/error.hpp>
 #include <crt/job.hpp>
 #include <string>
 #include <vector>
@@ -202,6 +203,56 @@ TEST_CASE("of a denoised picture no accuracy is claimed, and its file says so") 
   CHECK(std::all_of(error.begin(), error.end(), [](float value) { return value == 1; }));
   const auto albedo = smooth.channel("albedo.G");
   CHECK(std::equal(albedo.begin(), albedo.end(), plain.channel("albedo.G").begin()));
+}
+
+TEST_CASE("a job that may be denoised has the picture, and the one that the setting makes of it") {
+  Scene grid = room();
+  grid.settings.supersampling = 2;
+  for (const Scene& scene : {grid, with_samples(soft_shadows(), 16)}) {
+    const RenderOptions options{.threads = 2, .aovs = {.error = true}};
+    RenderOptions denoisable = options;
+    denoisable.denoisable = true;
+    const Image plain = picture_of(scene, options);
+    const Image smooth = picture_of(denoised(scene), options);
+    const PreparedScene prepared = prepare(scene);
+    const RenderJob job(prepared, denoisable);
+    const Image begun = job.denoised();
+    for (const float value : begun.pixels()) REQUIRE(std::isfinite(value));
+    const Image done = job.wait();
+    CHECK(same_pixels(done, plain));
+    CHECK(same_pixels(job.snapshot(), plain));
+    CHECK(done.stats().half_width_rms == plain.stats().half_width_rms);
+    CHECK_FALSE(done.settings().denoise);
+    for (int count = 0; count < 2; ++count) {
+      const Image filtered = job.denoised();
+      CHECK(same_pixels(filtered, smooth));
+      CHECK_FALSE(same_pixels(filtered, plain));
+      CHECK(filtered.settings().denoise);
+      CHECK(filtered.stats().half_width_rms == 0);
+      CHECK(std::ranges::equal(filtered.channel("error"), smooth.channel("error")));
+    }
+    CHECK_THROWS_WITH_AS(job.denoised([] { return false; }), doctest::Contains("cancelled"), Error);
+    const RenderJob without(prepared, options);
+    CHECK_THROWS_WITH_AS(without.denoised(), doctest::Contains("denoisable"), Error);
+    CHECK(same_pixels(RenderJob(prepare(denoised(scene)), options).wait(), smooth));
+  }
+}
+
+TEST_CASE("what is kept for a filter continues from a checkpoint that has it, and from no other") {
+  const PreparedScene prepared = prepare(with_samples(soft_shadows(), 16));
+  const TemporaryDirectory directory;
+  const auto checkpoint = directory / "picture.state";
+  const RenderOptions options{.checkpoint = checkpoint, .aovs = {.normal = true}};
+  RenderOptions begun = options;
+  begun.passes = 4;
+  begun.denoisable = true;
+  render(prepared, begun);
+  CHECK_THROWS_AS(render(prepared, options), Error);
+  RenderOptions continued = options;
+  continued.denoisable = true;
+  const RenderJob job(prepared, continued);
+  CHECK(same_pixels(job.wait(), render(prepared)));
+  CHECK(same_pixels(job.denoised(), render(prepare(denoised(with_samples(soft_shadows(), 16))))));
 }
 
 TEST_CASE("snapshots are denoised, and the last one is the picture") {

@@ -94,13 +94,25 @@ TEST_CASE("principled materials are written in all languages, patterns in the pl
   CHECK(count(script, "PrincipledMaterial { metallic -> 1 roughness -> Noise { ") == 1);
 }
 
-TEST_CASE("a mesh whose facets have principled materials is C++ alone") {
-  const Entity mesh =
-      triangle_mesh(std::vector<Vec3>{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
-                    std::vector<TriangleIndices>{{0, 1, 2}}, {.materials = {PrincipledMaterial{}}});
-  CHECK(count(code(mesh), "PrincipledMaterial{") == 1);
-  for (const SourceLanguage language : {SourceLanguage::c, SourceLanguage::python})
-    CHECK_THROWS_WITH_AS(code(mesh, language), doctest::Contains("principled"), Error);
+TEST_CASE("facets of a mesh have materials of either kind in all programs") {
+  const SharedMaterial plain = Material{.reflectivity = 0.25};
+  const SharedMaterial brass = PrincipledMaterial{.metallic = 1};
+  const auto mesh_of = [](const std::vector<SharedMaterial>& materials) {
+    return triangle_mesh(std::vector<Vec3>{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+                         std::vector<TriangleIndices>{{0, 1, 2}}, {.materials = materials});
+  };
+  const Entity both = mesh_of({plain, brass});
+  CHECK(count(code(both), "PrincipledMaterial{") == 1);
+  const std::string python = code(both, SourceLanguage::python);
+  CHECK(count(python, "material_1 = crt.Material(reflectivity=0.25") == 1);
+  CHECK(count(python, "material_2 = crt.PrincipledMaterial(metallic=1") == 1);
+  CHECK(count(python, "materials=[material_1,") == 1);
+  const std::string c = code(both, SourceLanguage::c);
+  CHECK(count(c, "const crt_material* materials_1[] = {&material_1, NULL};") == 1);
+  CHECK(count(c, "const crt_principled* principled_2[] = {NULL, &principled_1};") == 1);
+  CHECK(count(c, ".material_count = 2;") == 1);
+  CHECK(count(code(mesh_of({brass}), SourceLanguage::c), "const crt_material*") == 0);
+  CHECK(count(code(mesh_of({plain}), SourceLanguage::c), "crt_principled") == 0);
 }
 
 TEST_CASE("principled materials are described by their own numbers") {

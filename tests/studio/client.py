@@ -242,3 +242,48 @@ class OpenedFolder(unittest.TestCase):
         client = Client(self.server)
         self.addCleanup(client.close)
         return client
+
+
+# A view that shows all as files have it.
+ALL = {"channel": "color", "hidden": [], "section": None, "region": None, "t": 0}
+
+
+class ViewedFolder(OpenedFolder):
+    """Has a client that looks at SCENE, which has WIDTH and HEIGHT, and its picture."""
+
+    WIDTH, HEIGHT = 0, 0
+
+    def setUp(self):
+        super().setUp()
+        self.client = self.connect()
+        self.client.open("a.crt")
+        self.client.set_text(self.SCENE)
+        self.pixels = bytearray(4 * self.WIDTH * self.HEIGHT)
+        self.picture, _ = self.whole()
+
+    def whole(self):
+        """Returns the pixels that a page has at the end of a render, and the kinds of pictures.
+        `marks` has how these are marked, and `stats` what is said of the last."""
+        kinds = []
+        self.marks = set()
+        while True:
+            message = self.client.receive()
+            if isinstance(message, dict):
+                if message["type"] == "finished":
+                    self.stats = message["stats"]
+                    return bytes(self.pixels), kinds
+                continue
+            numbers = struct.unpack("<10I", message[:40])
+            kinds.append(numbers[1] & 0xFF)
+            self.marks.add(numbers[1] & 0x200)
+            if kinds[-1] > 0:
+                begin = 4 * self.WIDTH * numbers[8]
+                self.pixels[begin : begin + len(message) - 40] = message[40:]
+
+    def show(self, **options):
+        self.client.send(type="view", view={**ALL, **options})
+        return self.whole()[0]
+
+    def at(self, pixels, place):
+        begin = 4 * (self.WIDTH * place[1] + place[0])
+        return tuple(pixels[begin : begin + 4])

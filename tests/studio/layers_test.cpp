@@ -53,6 +53,30 @@ TEST_CASE("of many regions the last ones are kept, above the whole picture") {
   CHECK(layers.all().back().region->x == 19);
 }
 
+TEST_CASE("a display shows a layer without noise if it knows that, and says so") {
+  Layer layer = layer_of(PictureKind::final, {}, 1);
+  auto filtered = std::make_shared<Image>(*layer_of(PictureKind::final, {}, 0).image);
+  Settings settings;
+  settings.denoise = true;
+  filtered->set_settings(settings);
+  const auto shown = [&](const Display& display) { return encoded(layer, display, 1); };
+  CHECK(shown({.denoise = true}).rgba[0] == 255);
+  CHECK_FALSE(shown({.denoise = true}).is_denoised);
+  layer.denoised = filtered;
+  CHECK(shown({.denoise = true}).rgba[0] == 0);
+  CHECK(shown({.denoise = true}).is_denoised);
+  CHECK(shown({}).rgba[0] == 255);
+  CHECK_FALSE(shown({}).is_denoised);
+  // A scene may say so itself. What is measured of a picture is never filtered.
+  layer.image = filtered;
+  CHECK(shown({}).is_denoised);
+  auto measured = std::make_shared<Image>(*filtered);
+  measured->set_channels({{.name = "error", .values = std::vector<float>(2)}});
+  layer.image = measured;
+  layer.channel = Channel::error;
+  CHECK_FALSE(shown({}).is_denoised);
+}
+
 TEST_CASE("a display shows the light of a layer brighter, by the curve that it has") {
   const auto shown = [](double light, const Display& display) {
     return int{encoded(layer_of(PictureKind::final, {}, light), display, 1).rgba[0]};

@@ -6,7 +6,7 @@ import struct
 import subprocess
 import unittest
 
-from client import OpenedFolder
+from client import ALL, ViewedFolder
 
 COMMAND = os.environ["CRT_COMMAND"]
 WIDTH, HEIGHT = 96, 64
@@ -32,47 +32,14 @@ CAMERA = {
     "apertureShape": 0,
 }
 LEFT, RIGHT, CORNER = (28, 32), (66, 32), (2, 2)
-ALL = {"channel": "color", "hidden": [], "section": None, "region": None, "t": 0}
 
 
-class View(OpenedFolder):
-    SCENE = SCENE
-
-    def setUp(self):
-        super().setUp()
-        self.client = self.connect()
-        self.client.open("a.crt")
-        self.client.set_text(SCENE)
-        self.pixels = bytearray(4 * WIDTH * HEIGHT)
-        self.picture, _ = self.whole()
-
-    def whole(self):
-        """Returns the pixels that a page has at the end of a render, and the kinds of pictures."""
-        kinds = []
-        while True:
-            message = self.client.receive()
-            if isinstance(message, dict):
-                if message["type"] == "finished":
-                    return bytes(self.pixels), kinds
-                continue
-            numbers = struct.unpack("<10I", message[:40])
-            kinds.append(numbers[1] & 0xFF)
-            if kinds[-1] > 0:
-                begin = 4 * WIDTH * numbers[8]
-                self.pixels[begin : begin + len(message) - 40] = message[40:]
-
-    def show(self, **options):
-        self.client.send(type="view", view={**ALL, **options})
-        return self.whole()[0]
+class View(ViewedFolder):
+    SCENE, WIDTH, HEIGHT = SCENE, WIDTH, HEIGHT
 
     def span(self, piece):
         begin = SCENE.index(piece)
         return [begin, begin + len(piece)]
-
-    @staticmethod
-    def at(pixels, place):
-        begin = 4 * (WIDTH * place[1] + place[0])
-        return tuple(pixels[begin : begin + 4])
 
     def test_every_channel_is_shown_and_the_picture_comes_back(self):
         seen = {self.picture}
@@ -349,6 +316,7 @@ class View(OpenedFolder):
             {"region": {"x": 0}},
             {"t": None},
             {"exposure": "bright"},
+            {"denoise": 1},
             {"toneMap": "sepia"},
         ):
             with self.subTest(wrong):

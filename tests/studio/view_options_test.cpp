@@ -61,6 +61,17 @@ TEST_CASE("what comes from a statement that one of many spans encloses is hidden
   }
 }
 
+TEST_CASE("noise is smoothed away by how a picture is displayed, and by no other option") {
+  const ViewOptions plain;
+  ViewOptions smooth;
+  smooth.display.denoise = true;
+  CHECK(differ_in_display_alone(plain, smooth));
+  CHECK_FALSE(differ_in_display_alone(smooth, smooth));
+  CHECK(show_same_entities(plain, smooth));
+  smooth.t = 1;
+  CHECK_FALSE(differ_in_display_alone(plain, smooth));
+}
+
 TEST_CASE("a section cuts what light or the camera pass, which they then pass still") {
   Scene scene;
   const Entity ball = Sphere{};

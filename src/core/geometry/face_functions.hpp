@@ -35,7 +35,9 @@ struct NearFaces {
     /// A point of the box is in the solid if one of these functions is below 0 there, and not in it
     /// if all of them are above.
     where_any_negative,
-    unknown,  ///< nothing is known
+    /// Nothing is known, but that no other faces than `faces` are in the box. If these are none,
+    /// not even that.
+    unknown,
   };
   Kind kind = Kind::unknown;
   /// Numbers from Shape::face_count() on are of more functions, whose surfaces no other solid has.

@@ -38,9 +38,9 @@ double sum_of(const std::array<double, degree + 1>& sizes) {
   return sum;
 }
 
-double fifth_power(double x) {
+double seventh_power(double x) {
   const double square = x * x;
-  return square * square * x * bound_slack;
+  return square * square * square * x * bound_slack;
 }
 
 /// Returns a polynomial of e = a / a0 - 1, where a0 is the constant term, by its factors from e on.
@@ -164,15 +164,16 @@ PatchSeries square(const PatchSeries& a) {
 }
 
 PatchSeries root(const PatchSeries& a) {
-  // What the series of sqrt(1 + e) has beyond e^4 is at most 7/256 |e|^5 / (1 - |e|)^(9/2).
-  const auto beyond = [](double size) { return 7.0 / 256 * fifth_power(size / (1 - size)); };
+  // What the series of sqrt(1 + e) has beyond e^6 is at most 33/2048 |e|^7 / (1 - |e|)^(13/2).
+  const auto beyond = [](double size) { return 33.0 / 2048 * seventh_power(size / (1 - size)); };
   if (!(a.terms[0] > 0)) return {.error = std::numeric_limits<double>::infinity()};
-  return of_small(a, {1, 1.0 / 2, -1.0 / 8, 1.0 / 16, -5.0 / 128}, std::sqrt(a.terms[0]), beyond);
+  return of_small(a, {1, 1.0 / 2, -1.0 / 8, 1.0 / 16, -5.0 / 128, 7.0 / 256, -21.0 / 1024},
+                  std::sqrt(a.terms[0]), beyond);
 }
 
 PatchSeries inverse(const PatchSeries& a) {
-  const auto beyond = [](double size) { return fifth_power(size) / (1 - size); };
-  return of_small(a, {1, -1, 1, -1, 1}, 1 / a.terms[0], beyond);
+  const auto beyond = [](double size) { return seventh_power(size) / (1 - size); };
+  return of_small(a, {1, -1, 1, -1, 1, -1, 1}, 1 / a.terms[0], beyond);
 }
 
 PatchSeries positive_part(const PatchSeries& a) {
@@ -186,19 +187,75 @@ Interval range_of(const PatchSeries& a) {
   return Interval{sum_down(a.terms[0] - spread), sum_up(a.terms[0] + spread)};
 }
 
-Interval integral(const PatchSeries& a) {
-  double sum = 0;
-  double size = 0;
-  for (std::size_t i = 0; i <= degree; i += 2) {
-    for (std::size_t j = 0; i + j <= degree; j += 2) {
-      const double part =
-          a.terms[PatchSeries::place(i, j)] * (4.0 / static_cast<double>((i + 1) * (j + 1)));
-      sum += part;
-      size += std::abs(part);
+PatchSeries part_of(const PatchSeries& a, double s, double t, double size) {
+  PatchSeries result = a;
+  // Shifting takes multiples of higher terms to lower ones (Horner), along t and then along s.
+  const auto shift = [&](double by, const auto& place) {
+    for (std::size_t row = 0; row <= degree; ++row) {
+      for (std::size_t first = 0; first + row < degree; ++first) {
+        for (std::size_t i = degree - row; i-- > first;)
+          result.terms[place(i, row)] += by * result.terms[place(i + 1, row)];
+      }
+    }
+  };
+  shift(s, [](std::size_t i, std::size_t j) { return PatchSeries::place(i, j); });
+  shift(t, [](std::size_t j, std::size_t i) { return PatchSeries::place(i, j); });
+  double power = 1;
+  double terms = 0;
+  for (std::size_t d = 0, place = 0; d <= degree; ++d, power *= size) {
+    for (std::size_t j = 0; j <= d; ++j, ++place) {
+      terms += std::abs(a.terms[place]);
+      result.terms[place] *= power;
     }
   }
-  const double off = (4 * a.error + product_rounding * size) * bound_slack + smallest;
-  return {sum_down(sum - off), sum_up(sum + off)};
+  result.error = (a.error + product_rounding * terms) * bound_slack;
+  return result;
+}
+
+double value_at(const PatchSeries& a, double s, double t) {
+  double sum = 0;
+  for (std::size_t i = degree + 1; i-- > 0;) {
+    double row = 0;
+    for (std::size_t j = degree + 1 - i; j-- > 0;)
+      row = row * t + a.terms[PatchSeries::place(i, j)];
+    sum = sum * s + row;
+  }
+  return sum;
+}
+
+double integral_over_part(const PatchSeries& a, double s, double t, double size) {
+  // These are the integrals of powers over an interval.
+  const auto powers = [size](double middle) {
+    std::array<double, degree + 1> result{};
+    const double low = middle - size;
+    const double high = middle + size;
+    double low_power = low;
+    double high_power = high;
+    result[0] = 2 * size;
+    for (std::size_t i = 1; i <= degree; ++i) {
+      low_power *= low;
+      high_power *= high;
+      result[i] = (high_power - low_power) / static_cast<double>(i + 1);
+    }
+    return result;
+  };
+  const auto of_s = powers(s);
+  const auto of_t = powers(t);
+  double sum = 0;
+  for (std::size_t i = 0; i <= degree; ++i) {
+    double row = 0;
+    for (std::size_t j = 0; i + j <= degree; ++j)
+      row += a.terms[PatchSeries::place(i, j)] * of_t[j];
+    sum += row * of_s[i];
+  }
+  return sum;
+}
+
+double change_in_quarter(const PatchSeries& a) {
+  const auto sizes = sizes_by_degree(a);
+  double sum = 0;
+  for (std::size_t d = 1; d <= degree; ++d) sum += static_cast<double>(d) * sizes[d];
+  return 0.5 * sum * bound_slack;
 }
 
 }  // namespace crt::core

@@ -14,7 +14,7 @@
 namespace crt::core {
 
 struct PatchSeries {
-  static constexpr std::size_t degree = 4;
+  static constexpr std::size_t degree = 6;
   static constexpr std::size_t term_count = (degree + 1) * (degree + 2) / 2;
   /// Returns the place of the term of s^i t^j.
   static constexpr std::size_t place(std::size_t i, std::size_t j) {
@@ -46,7 +46,16 @@ PatchSeries inverse(const PatchSeries& a);
 PatchSeries positive_part(const PatchSeries& a);
 
 Interval range_of(const PatchSeries& a);
-/// Returns the integral over all s and t, an area of 4.
-Interval integral(const PatchSeries& a);
+/// Returns what it is in the part of the patch from s - size to s + size, and so with t, as a
+/// patch.
+PatchSeries part_of(const PatchSeries& a, double s, double t, double size);
+/// Returns the polynomial's value, rounded.
+double value_at(const PatchSeries& a, double s, double t);
+/// Returns the integral over s and t from those less size to those more, rounded. The error is not
+/// in it.
+double integral_over_part(const PatchSeries& a, double s, double t, double size);
+/// Returns a bound on how much it changes from the middle of a quarter of the patch to anywhere in
+/// it, but for the error.
+double change_in_quarter(const PatchSeries& a);
 
 }  // namespace crt::core

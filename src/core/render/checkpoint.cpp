@@ -88,12 +88,13 @@ bool is_missing(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
+std::uint64_t fingerprint(const Frame& frame, const Region& region, const KeptOfPixels& kept,
                           Progress& progress, const StepRules& rules) {
   ByteHash hash;
   add_settings(hash, frame.settings());
-  add(hash, region.x, region.y, region.width, region.height, with_first_hits,
+  add(hash, region.x, region.y, region.width, region.height, kept.first_hits,
       frame.features().lens);
+  if (kept.guides) add(hash, kept.guides);
   add_light(hash, frame, region, progress, rules);
   return hash.value();
 }

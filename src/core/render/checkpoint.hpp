@@ -12,10 +12,16 @@
 
 namespace crt::core {
 
+/// Says what is kept of pixels beside their colours.
+struct KeptOfPixels {
+  bool first_hits = false;
+  bool guides = false;
+};
+
 /// Returns a number that distinguishes pictures. It is computed from the settings that continuing
 /// takes, and from the light of some samples that belong to no pixel. Their rays are traced by
 /// `rules`. Throws Error (cancelled) if the progress says so.
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
+std::uint64_t fingerprint(const Frame& frame, const Region& region, const KeptOfPixels& kept,
                           Progress& progress, const StepRules& rules);
 
 /// Makes a checkpoint of a picture of which nothing is known, unless there is a file. Any picture

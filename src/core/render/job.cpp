@@ -145,6 +145,10 @@ Image RenderJob::snapshot() const {
   return state_->rendering().picture();
 }
 
+Image RenderJob::denoised(const std::function<bool()>& go_on) const {
+  return state_->rendering().denoised(go_on);
+}
+
 void RenderJob::cancel() {
   state_->rendering().cancel();
 }

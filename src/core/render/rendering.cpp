@@ -21,6 +21,9 @@ namespace crt::core {
 
 namespace {
 
+/// Is the half-width of a pixel of which nothing is known, in what a display shows.
+constexpr float unknown_half_width = 1;
+
 /// Returns the part of the picture that the options ask for, checked.
 Region chosen_region(const RenderOptions& options, const Settings& settings) {
   if (!options.region) return {0, 0, settings.width, settings.height};
@@ -88,14 +91,14 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
              .poll = [this] { progress_.poll_in_ray(); }},
       seconds_(std::move(seconds)) {
   if (is_any(options_.aovs)) canvas_.add_channels(options_.aovs);
-  if (settings_.denoise) canvas_.add_guides();
+  if (keeps_guides()) canvas_.add_guides();
   allowed_threads(options_.threads);  // throws for an invalid number
   check_passes(options_, settings_, canvas_.region());
 }
 
 void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& work) {
   Tracer tracer(frame, work, progress_);
-  if (!is_any(options_.aovs) && !settings_.denoise) {
+  if (!is_any(options_.aovs) && !keeps_guides()) {
     trace_tile(frame, tile, tracer, {}, work);
     return;
   }
@@ -111,9 +114,9 @@ void Rendering::trace_tile(const Frame& frame, const Region& tile, Tracer& trace
                            std::span<FirstHit> first_hits, Workspace& work) {
   std::array<PixelMean, Tiles::most_pixels> storage;
   const std::span<PixelMean> means = std::span(storage).first(pixel_count(tile));
-  std::vector<PixelNoise> noise(settings_.denoise ? means.size() : 0);
+  std::vector<PixelNoise> noise(keeps_guides() ? means.size() : 0);
   trace_pixels(frame, tile, tracer, means, first_hits, noise, work.stats);
-  if (settings_.denoise) put_guides(frame, tile, first_hits, noise);
+  if (keeps_guides()) put_guides(frame, tile, first_hits, noise);
   std::array<float, pixel_channels * Tiles::most_pixels> pixels;
   float* next = pixels.data();
   for (const PixelMean& mean : means) {
@@ -184,7 +187,7 @@ void Rendering::put_aovs(const Frame& frame, const TaskRunner& run_tasks) {
 void Rendering::run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
                                     const TaskRunner& run_tasks, double begin) {
   const std::uint64_t picture =
-      fingerprint(frame, canvas_.region(), keeps_first_hits(), progress_, rules_);
+      fingerprint(frame, canvas_.region(), {keeps_first_hits(), keeps_guides()}, progress_, rules_);
   Checkpoint checkpoint(options_.checkpoint, picture, passes, canvas_, pool, seconds_, begin);
   checkpoint.take_up();
   const TaskRunner run_and_tell = [&](std::size_t count, double share_after, const auto& task) {
@@ -244,7 +247,7 @@ RenderStats Rendering::render_picture() {
     }
     rendering.finish(run_tasks);
     measures_ = rendering.take_measures();
-    if (settings_.denoise) std::ranges::fill(measures_.half_widths, 1.0f);  // not known
+    if (settings_.denoise) std::ranges::fill(measures_.half_widths, unknown_half_width);
     passes = rendering.passes();
     if (is_any(options_.aovs)) put_aovs(frame, run_tasks);
   } else {
@@ -268,8 +271,28 @@ RenderStats Rendering::render_picture() {
 }
 
 Image Rendering::picture() const {
-  const auto run = [this](std::size_t count, const std::function<void(std::size_t)>& task) {
-    run_tasks(count, options_.threads, [&task](std::size_t index) {
+  return settings_.denoise ? filtered() : canvas_.copy();
+}
+
+Image Rendering::denoised(const std::function<bool()>& go_on) const {
+  if (!keeps_guides()) {
+    throw Error(ErrorCode::invalid_argument,
+                "nothing is kept to denoise the picture: ask for RenderOptions::denoisable",
+                "denoisable");
+  }
+  Image image = filtered(go_on);
+  Settings settings = image.settings();
+  settings.denoise = true;
+  image.set_settings(std::move(settings));
+  forget_accuracy(image.stats());
+  if (options_.aovs.error) std::ranges::fill(image.channel("error"), unknown_half_width);
+  return image;
+}
+
+Image Rendering::filtered(const std::function<bool()>& go_on) const {
+  const auto run = [&](std::size_t count, const std::function<void(std::size_t)>& task) {
+    run_tasks(count, options_.threads, [&](std::size_t index) {
+      if (go_on && !go_on()) throw Error(ErrorCode::cancelled, "denoising was cancelled");
       const FloatEnvironment ieee;
       task(index);
     });

@@ -2,6 +2,7 @@
 // RenderJob follows it.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "core/prepare/prepared_data.hpp"
@@ -35,6 +36,9 @@ class Rendering {
 
   /// Returns the picture with what is done at the time.
   Image picture() const;
+  /// Returns it without noise. Throws Error: cancelled, and invalid_argument if nothing is kept for
+  /// the filter.
+  Image denoised(const std::function<bool()>& go_on) const;
   double share_done() const { return progress_.share(); }
   void cancel() { progress_.stop(); }
 
@@ -63,7 +67,11 @@ class Rendering {
   void put_guides(const Frame& frame, const Region& tile, std::span<const FirstHit> first_hits,
                   std::span<const PixelNoise> noise);
   /// Returns whether somebody asks how the surfaces look that samples meet first.
-  bool keeps_first_hits() const { return settings_.denoise || ask_for_first_hits(options_.aovs); }
+  bool keeps_first_hits() const { return keeps_guides() || ask_for_first_hits(options_.aovs); }
+  /// Returns whether there is to be all that a filter needs to know.
+  bool keeps_guides() const { return settings_.denoise || options_.denoisable; }
+  /// Returns the picture with what is done at the time, filtered as far as that was not done yet.
+  Image filtered(const std::function<bool()>& go_on = {}) const;
   /// Returns what filters the picture at the end, until somebody cancels.
   StripRunner strip_runner();
   void report(const RenderStats& stats) const;

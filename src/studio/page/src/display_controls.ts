@@ -1,6 +1,6 @@
-// How light is shown: brighter or darker, and by which curve. Nothing is rendered again for it.
+// How light is shown: brighter or darker, by which curve, and without its noise.
 
-import {choice, input} from './dom';
+import {choice, input, labelled} from './dom';
 import {numberText} from './numbers';
 import type {ViewOptions} from './protocol';
 
@@ -17,8 +17,11 @@ export class DisplayControls {
   });
   private readonly toneMap = choice('Tone map', toneMaps, (name) =>
     this.take({toneMap: name === '' ? null : name}));
+  private readonly denoise = input('checkbox', 'Denoise', '', (field) =>
+    this.keepDenoise(field.checked));
 
-  constructor(private readonly take: (options: Partial<ViewOptions>) => void) {
+  constructor(private readonly take: (options: Partial<ViewOptions>) => void,
+              private readonly keepDenoise: (isWanted: boolean) => void) {
     this.element.className = 'group';
     this.slider.min = String(-usualStops);
     this.slider.max = String(usualStops);
@@ -28,7 +31,11 @@ export class DisplayControls {
         'A double click shows it as the script says';
     this.slider.addEventListener('dblclick', () => this.setExposure(0));
     this.toneMap.title = 'Show bright light by another curve';
-    this.element.append('Exposure', this.slider, this.field, this.toneMap);
+    const denoise = labelled('Denoise');
+    denoise.title = 'Smooth the noise of few samples away, in the view alone. Nothing is claimed of ' +
+      'the error of such a picture';
+    denoise.prepend(this.denoise);
+    this.element.append('Exposure', this.slider, this.field, this.toneMap, denoise);
   }
 
   private setExposure(exposure: number): void {
@@ -36,9 +43,10 @@ export class DisplayControls {
   }
 
   /** Shows what is in effect. */
-  update({exposure, toneMap}: ViewOptions): void {
+  update({exposure, toneMap, denoise}: ViewOptions): void {
     this.slider.value = String(exposure);
     if (this.field.valueAsNumber !== exposure) this.field.value = numberText(exposure);
     this.toneMap.value = toneMap ?? '';
+    this.denoise.checked = denoise;
   }
 }

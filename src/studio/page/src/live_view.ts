@@ -42,6 +42,7 @@ export class LiveView {
   private readonly area = document.createElement('div');
   private readonly frame = document.createElement('div');
   private readonly note = document.createElement('p');
+  private readonly mark = document.createElement('span');
   /** Is the size of the whole picture. */
   private size = {width: 1, height: 1};
   private takesRegion = false;
@@ -58,7 +59,10 @@ export class LiveView {
     this.note.className = 'hint';
     this.area.className = 'area';
     this.frame.className = 'frame';
-    this.frame.append(this.canvas, this.overlay.element);
+    this.mark.className = 'mark';
+    this.mark.textContent = 'Denoised';
+    this.mark.hidden = true;
+    this.frame.append(this.canvas, this.overlay.element, this.mark);
     this.area.append(this.frame, this.note);
     this.clear(0);
     this.element.append(this.area);
@@ -118,6 +122,14 @@ export class LiveView {
     this.note.replaceChildren();
     this.shown += 1;
     this.lastKind = frame.kind;
+    // Below a picture in progress there is another one.
+    const isDenoised = frame.isDenoised || (frame.kind === 'progress' && this.isDenoised);
+    this.mark.hidden = !isDenoised;
+  }
+
+  /** Says whether a filter has smoothed noise away, perhaps in a part of the picture. */
+  get isDenoised(): boolean {
+    return !this.mark.hidden;
   }
 
   private resize(width: number, height: number): void {

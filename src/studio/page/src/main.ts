@@ -116,6 +116,7 @@ class Studio {
       message: (message) => this.receive(message),
       frame: (frame) => {
         this.view.show(frame);
+        this.statistics.setDenoised(this.view.isDenoised);
         this.trade.add(frame, this.queue.seconds);
         if (frame.isLast && frame.revision === this.revision && this.timing.firstPicture === 0)
           this.timing.firstPicture = performance.now() - this.timing.changed;

@@ -70,14 +70,16 @@ const always: readonly Row[] = [
   ['intersection tests', 'Intersection tests', count],
   ['exact fallbacks', 'Exact fallbacks', count],
   ['samples of a pixel (mean)', 'Samples of a pixel', (value) => value.toFixed(1)]];
+const errorKey = 'error of 95 of 100 pixels';
 /** The plain grid knows nothing of its error. */
 const byPasses: readonly Row[] = [
-  ['passes', 'Passes', count], ['error of 95 of 100 pixels', '95 of 100 pixels within', steps]];
+  ['passes', 'Passes', count], [errorKey, '95 of 100 pixels within', steps]];
 
 export class Statistics {
   readonly element = document.createElement('div');
   private scene: Scene | null = null;
   private stats: Record<string, number> = {};
+  private isDenoised = false;
 
   constructor() {
     this.element.className = 'statistics';
@@ -95,6 +97,13 @@ export class Statistics {
     this.draw();
   }
 
+  /** Shows no error of a picture that is denoised. */
+  setDenoised(isDenoised: boolean): void {
+    if (this.isDenoised === isDenoised) return;
+    this.isDenoised = isDenoised;
+    this.draw();
+  }
+
   private draw(): void {
     const {scene, stats} = this;
     if (!scene) {
@@ -104,8 +113,9 @@ export class Statistics {
       return this.element.replaceChildren(hint);
     }
     const rows = [...always, ...(stats['passes'] ? byPasses : [])]
-      .filter(([key]) => stats[key] !== undefined)
-      .map(([key, title, text]): [string, string] => [title, text(stats[key]!)]);
+      .filter(([key]) => stats[key] !== undefined || key === errorKey)
+      .map(([key, title, text]): [string, string] => [title, key === errorKey && this.isDenoised
+        ? 'not known of what is denoised' : text(stats[key]!)]);
     this.element.replaceChildren(
       tableOf('Scene', [
         ['Picture', `${scene.width} × ${scene.height}`], ['Entities', count(scene.entities)],

@@ -128,6 +128,8 @@ export interface ViewOptions {
   exposure: number;
   /** The tone map in the place of the script's, or null. */
   toneMap: string | null;
+  /** Says whether a filter smooths noise away, also where the script does not say so. */
+  denoise: boolean;
 }
 
 /** A box around an entity. Sides at infinity are null. */
@@ -187,6 +189,8 @@ export interface Code {
 export interface Frame {
   kind: 'draft' | 'progress' | 'final';
   isLast: boolean;
+  /** Says that a filter has smoothed noise away, so that nothing is known of the error. */
+  isDenoised: boolean;
   picture: number;
   revision: number;
   fullWidth: number;
@@ -217,6 +221,7 @@ export function readBinary(data: ArrayBuffer): Frame | {format: string; file: Ar
   return {
     kind: kinds[at(1) & 0xff] ?? 'draft',
     isLast: (at(1) & 0x100) !== 0,
+    isDenoised: (at(1) & 0x200) !== 0,
     picture: at(2),
     revision: at(3),
     fullWidth: at(4),

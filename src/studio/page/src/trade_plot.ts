@@ -43,6 +43,8 @@ export class TradePlot {
   /** Some of the pixels of the picture that comes, of which only changed rows are sent. */
   private pixels = new Uint8ClampedArray();
   private key = '';
+  /** Says whether what is shown is denoised. What time buys is not known of such pictures. */
+  private isDenoised = false;
 
   constructor() {
     this.element.className = 'trade';
@@ -64,7 +66,9 @@ export class TradePlot {
   add(frame: Frame, seconds: number): void {
     this.sample(frame);
     if (!frame.isLast) return;
-    if (frame.kind === 'draft') {
+    this.isDenoised = frame.isDenoised;
+    this.hide();
+    if (frame.kind === 'draft' || frame.isDenoised) {
       this.kept = [];
     } else if (frame.kind === 'progress') {
       // A picture that has holes is not rendered by passes.
@@ -107,9 +111,13 @@ export class TradePlot {
     }
   }
 
+  private hide(): void {
+    this.element.hidden = this.measures.length < 2 || this.isDenoised;
+  }
+
   private draw(): void {
     const {measures, estimate} = this;
-    this.element.hidden = measures.length < 2;
+    this.hide();
     if (measures.length < 2) return;
     const scaled = (values: number[], size: number) => {
       const logs = values.map(Math.log10);

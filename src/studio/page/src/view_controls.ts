@@ -51,7 +51,8 @@ export class ViewControls {
     this.section = new SectionControls((section) => state.set({section}), () => host.askBoxes(),
                                        () => host.viewer());
     this.time = new TimeControls((t) => state.set({t}), () => host.countShown());
-    this.display = new DisplayControls((options) => state.set(options));
+    this.display = new DisplayControls((options) => state.set(options),
+                                       (isWanted) => state.setDenoise(isWanted));
     this.bounds = input('checkbox', 'Bounds', '', () => host.boundsChanged());
     this.region = button('Region', 'Drag a part of the picture, to refine it alone (Ctrl and drag)',
                          () => this.wantRegion(!this.wantsRegion));

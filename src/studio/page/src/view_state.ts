@@ -9,6 +9,8 @@ import {storage} from './storage';
 export const modes = [
   ['rendered', 'Rendered'], ['material', 'Material'], ['clay', 'Clay']] as const;
 const modeKey = 'crt-studio:mode';
+/** The browser keeps, too, whether noise is smoothed away. */
+const denoiseKey = 'crt-studio:denoise';
 
 function keptMode(): string {
   const kept = storage.getItem(modeKey);
@@ -21,7 +23,8 @@ const plain = {exposure: 0, toneMap: null};
 
 export class ViewState {
   options: ViewOptions = {
-    channel: 'color', mode: keptMode(), ...whole, ...plain};
+    channel: 'color', mode: keptMode(), denoise: storage.getItem(denoiseKey) === 'true',
+    ...whole, ...plain};
 
   constructor(private readonly changed: () => void) {}
 
@@ -33,6 +36,11 @@ export class ViewState {
   setMode(mode: string): void {
     storage.setItem(modeKey, mode);
     this.set({mode});
+  }
+
+  setDenoise(denoise: boolean): void {
+    storage.setItem(denoiseKey, String(denoise));
+    this.set({denoise});
   }
 
   /** Goes on to the next mode, and after the last to the first. */

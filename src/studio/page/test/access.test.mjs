@@ -116,7 +116,7 @@ withPage('the keyboard reaches everything, in the order in which it is seen', as
     'application Picture: drag or arrow keys turn, shift moves, wheel or plus and minus go nearer',
     'select Mode', 'select Channel', 'input Bounds', 'input Cutters', 'select Section across',
     'button Compare', 'button Region',
-    'input Exposure', 'input Exposure in stops', 'select Tone map',
+    'input Exposure', 'input Exposure in stops', 'select Tone map', 'input Denoise',
     'tab Console', 'log Console',
     'tab Scene', 'tree Scene',
     'tab Properties', 'input center x', 'input center y', 'input center z',

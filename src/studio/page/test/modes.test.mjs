@@ -140,3 +140,55 @@ withPage('the exposure is shown at once, also while one renders, and is of the v
   assert.equal(await shownBytes(page), first);
   assert.equal(readFileSync(join(folder, 'a.crt'), 'utf8'), scene);
 });
+
+withPage('noise is smoothed away in the view alone, which says so, and the browser keeps that',
+         async ({page, folder}) => {
+  const noisy = scene.replace('supersampling -> 2', 'targeterror -> 0.03 maxsamples -> 32 lights ' +
+    '-> [PointLight { origin -> vec3(2, 3, -2) color -> rgb(1, 1, 1) radius -> 1 }]');
+  await rendered(page, () => page.evaluate((content) => studio.editor.replace(content), noisy));
+  const fileOf = async () => {
+    const [download] = await Promise.all([
+      page.waitForEvent('download'), page.getByRole('button', {name: 'PNG'}).click()]);
+    return readFileSync(await download.path());
+  };
+  const mark = page.locator('.live .mark');
+  const denoise = page.getByLabel('Denoise', {exact: true});
+  const statistics = () => page.evaluate(() => studio.statistics.element.textContent);
+  const first = await shownBytes(page);
+  const file = await fileOf();
+  assert.equal(await denoise.isChecked(), false);
+  assert.equal(await mark.isVisible(), false);
+  assert.match(await statistics(), /95 of 100 pixels within[0-9.]+ steps/);
+  await rendered(page, () => denoise.check());
+  const smooth = await shownBytes(page);
+  assert.notEqual(smooth, first);
+  assert.equal(await mark.textContent(), 'Denoised');
+  assert.ok(await mark.isVisible());
+  assert.match(await statistics(), /95 of 100 pixels withinnot known/);
+  assert.equal(await page.evaluate(() => studio.trade.element.hidden), true);
+  assert.deepEqual(await fileOf(), file);
+
+  // Both are known now.
+  await page.evaluate(() => {
+    window.states = 0;
+    const set = studio.queue.set.bind(studio.queue);
+    studio.queue.set = (state) => { window.states += 1; set(state); };
+  });
+  await denoise.uncheck();
+  await showsBytes(page, first);
+  assert.equal(await mark.isVisible(), false);
+  assert.match(await statistics(), /95 of 100 pixels within[0-9.]+ steps/);
+  await denoise.check();
+  await showsBytes(page, smooth);
+  assert.ok(await mark.isVisible());
+  assert.equal(await page.evaluate(() => window.states), 0, 'nothing was rendered for it');
+  assert.equal(readFileSync(join(folder, 'a.crt'), 'utf8'), scene);
+
+  await page.reload();
+  await whole(page);
+  assert.ok(await denoise.isChecked());
+  assert.equal(await shownBytes(page), smooth);
+  assert.ok(await mark.isVisible());
+  await rendered(page, () => page.getByLabel('Channel').selectOption('depth'));
+  assert.equal(await mark.isVisible(), false);
+});

@@ -1,0 +1,290 @@
+#include "core/measure/solid_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/invalid_index.hpp"
+#include "core/geometry/face_functions.hpp"
+
+namespace crt::core {
+
+CellFrame::CellFrame(const Bounds& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    middle[axis] = 0.5 * box.lower[axis] + 0.5 * box.upper[axis];
+    half[axis] =
+        rounded_up(std::max(box.upper[axis] - middle[axis], middle[axis] - box.lower[axis]));
+  }
+}
+
+std::array<Interval, 3> intervals_of(const Bounds& box) {
+  return {Interval{box.lower.x, box.upper.x}, Interval{box.lower.y, box.upper.y},
+          Interval{box.lower.z, box.upper.z}};
+}
+
+std::array<Jet, 3> jets_of(const std::array<Interval, 3>& place) {
+  constexpr Interval none{0, 0};
+  constexpr Interval one{1, 1};
+  return {Jet{place[0], {one, none, none}}, Jet{place[1], {none, one, none}},
+          Jet{place[2], {none, none, one}}};
+}
+
+Interval narrowed(const Interval& at_middle, const Jet& in_box, const Vec3& half) {
+  Interval change{0, 0};
+  for (int axis = 0; axis < 3; ++axis) {
+    change =
+        change + in_box.slope[static_cast<std::size_t>(axis)] * Interval{-half[axis], half[axis]};
+  }
+  const Interval by_slopes = at_middle + change;
+  return {std::max(in_box.value.lo, by_slopes.lo), std::min(in_box.value.hi, by_slopes.hi)};
+}
+
+namespace {
+
+constexpr std::size_t max_faces = CellLook::max_faces;
+/// This is the surface of what is unknown, which is no other's.
+constexpr std::uint64_t unknown_surface = ~std::uint64_t{0};
+
+/// Returns the surface of a function that is of no face, which no other leaf has.
+std::uint64_t own_surface(std::uint32_t leaf, std::uint32_t face) {
+  return (std::uint64_t{leaf} + 1) << 32 | face;
+}
+
+/// A NearFace is a face of an open leaf in a cell.
+struct NearFace {
+  std::size_t leaf = 0;    ///< place among the open leaves
+  std::size_t number = 0;  ///< among the faces of the look
+  bool flipped = false;    ///< its function is that of the other face with the sign changed
+};
+
+CellFace linear_face(const Interval& at_middle, const Jet& jet, const Vec3& half) {
+  CellFace face{.slopes = jet.slope};
+  face.value = 0.5 * at_middle.lo + 0.5 * at_middle.hi;
+  double error = at_middle.width();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval& slope = jet.slope[static_cast<std::size_t>(axis)];
+    const double middle = 0.5 * slope.lo + 0.5 * slope.hi;
+    face.slope[axis] = middle * half[axis];
+    error += (slope.width() + 0x1p-51 * std::abs(middle)) * half[axis];
+  }
+  // Widths are twice what they may be off, and the last bits are within that but for these.
+  face.error = 0.5 * error * (1 + 0x1p-40) + 0x1p-50 * std::abs(face.value) +
+               std::numeric_limits<double>::min();
+  if (!(std::isfinite(face.error) && std::isfinite(face.value))) {
+    face.value = 0;
+    face.slope = {0, 0, 0};
+    face.error = infinity;
+  }
+  return face;
+}
+
+/// Leaves out faces of a look that make no difference.
+void drop_faces(CellLook& look) {
+  for (std::size_t i = look.faces.size(); i-- > 0;) {
+    const std::uint32_t count = 1U << look.faces.size();
+    const std::uint32_t bit = 1U << i;
+    bool matters = false;
+    for (std::uint32_t m = 0; m < count && !matters; ++m)
+      matters = look.is_inside(m) != look.is_inside(m ^ bit);
+    if (matters) continue;
+    std::uint32_t inside = 0;
+    for (std::uint32_t m = 0; m < count / 2; ++m) {
+      const std::uint32_t low = m & (bit - 1);
+      const std::uint32_t with_gap = ((m & ~(bit - 1)) << 1) | low;
+      inside |= static_cast<std::uint32_t>(look.is_inside(with_gap)) << m;
+    }
+    look.inside = inside;
+    look.faces.erase(look.faces.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+}  // namespace
+
+/// A Workspace has what is found of one leaf.
+struct CellSolid::Workspace {
+  NearFaces near;
+  std::vector<CellFace> faces;  ///< those that may be negative or positive
+  bool is_unknown = false;
+  bool is_any = false;       ///< the leaf is inside where any of its faces is negative, and not all
+  double max_crossings = 0;  ///< of all faces that may be in the cell
+};
+
+CellSolid::CellSolid(const CompiledScene& scene, const SceneObject& object) {
+  const CompiledScene& own = object.is_instance() ? scene.prototype_of(object) : scene;
+  surfaces_ = own.face_surfaces;
+  bounds_ = object.bounds;
+  const CsgProgram* program = nullptr;
+  if (object.is_instance() && own.objects.front().is_csg())
+    program = &own.programs[own.objects.front().program];
+  if (object.is_csg()) program = &scene.programs[object.program];
+  program_ = std::make_shared<const OpenProgram>(program != nullptr ? OpenProgram::of(*program)
+                                                                    : OpenProgram::of_leaf());
+  for (const Leaf& leaf : scene.leaves_of(object)) {
+    CellLeaf& entry = leaves_.emplace_back();
+    entry.leaf = &leaf;
+    entry.placement = leaf.placement;
+    entry.functions = leaf.shape->face_functions();
+    const Instance* const instance =
+        object.is_instance() ? &scene.instances[object.instance] : nullptr;
+    if (instance == nullptr || instance->to_world == nullptr) continue;
+    auto placement = std::make_unique<ComposedPlacement>();
+    const auto number = static_cast<std::size_t>(leaf.placement - own.placements.data());
+    placement->set(instance->to_world, own.chains[number], own.precision);
+    entry.placement = &placement->get();
+    entry.own_placement = std::move(placement);
+  }
+}
+
+bool CellSolid::has_all_functions() const {
+  return std::ranges::all_of(leaves_,
+                             [](const CellLeaf& leaf) { return leaf.functions != nullptr; });
+}
+
+LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellFrame& frame,
+                             Workspace& work) const {
+  work.faces.clear();
+  work.is_unknown = false;
+  work.max_crossings = 0;
+  const LeafValue inside =
+      leaf.leaf->complemented ? LeafValue::always_false : LeafValue::always_true;
+  const LeafValue outside =
+      leaf.leaf->complemented ? LeafValue::always_true : LeafValue::always_false;
+  const std::array<Interval, 3> place = intervals_of(cell.box);
+  const std::array<Interval, 3> object_box = leaf.placement->to_object(place);
+  if (leaf.functions == nullptr) {
+    const Bounds bounds = leaf.leaf->shape->bounds();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Interval& side = object_box[static_cast<std::size_t>(axis)];
+      if (side.lo > bounds.upper[axis] || side.hi < bounds.lower[axis]) return outside;
+    }
+    work.is_unknown = true;
+    work.is_any = false;
+    work.max_crossings = infinity;
+    return LeafValue::open;
+  }
+  leaf.functions->look(object_box, work.near);
+  if (work.near.kind == NearFaces::Kind::inside) return inside;
+  if (work.near.kind == NearFaces::Kind::outside) return outside;
+  if (work.near.kind == NearFaces::Kind::unknown) {
+    work.is_unknown = true;
+    work.is_any = false;
+    if (work.near.faces.empty()) work.max_crossings = infinity;
+    for (const std::uint32_t face : work.near.faces) {
+      const int crossings = leaf.functions->max_crossings(face);
+      work.max_crossings += crossings > 0 ? crossings : infinity;
+    }
+    return LeafValue::open;
+  }
+  work.is_any = work.near.kind == NearFaces::Kind::where_any_negative;
+  const std::array<Jet, 3> jets = leaf.placement->to_object(jets_of(place));
+  const auto& [x, y, z] = std::array{frame.middle.x, frame.middle.y, frame.middle.z};
+  const std::array<Interval, 3> middle = leaf.placement->to_object(
+      std::array<Interval, 3>{Interval::of(x), Interval::of(y), Interval::of(z)});
+  for (const std::uint32_t face : work.near.faces) {
+    const Jet jet = leaf.functions->value(face, jets);
+    const Interval at_middle = leaf.functions->value(face, middle);
+    const Interval range = narrowed(at_middle, jet, frame.half);
+    if (range.lo > 0 || range.hi < 0) {
+      const bool is_negative = range.hi < 0;
+      if (is_negative == work.is_any) return is_negative ? inside : outside;
+      continue;
+    }
+    CellFace found = linear_face(at_middle, jet, frame.half);
+    found.leaf = static_cast<std::uint32_t>(&leaf - leaves_.data());
+    found.face = face;
+    found.surface = own_surface(found.leaf, face);
+    if (face < leaf.leaf->shape->face_count()) {
+      const FaceSurface surface = leaf.leaf->surface_of(face, surfaces_);
+      found.surface = surface.surface;
+      found.flipped = surface.flipped;
+    }
+    work.faces.push_back(found);
+    const int crossings = leaf.functions->max_crossings(face);
+    work.max_crossings += crossings > 0 ? crossings : infinity;
+  }
+  if (!work.faces.empty()) return LeafValue::open;
+  return work.is_any ? outside : inside;
+}
+
+CellLook CellSolid::look(const Cell& cell) const {
+  CellLook look;
+  const OpenProgram& program = *cell.program;
+  const CellFrame frame(cell.box);
+  Workspace work;
+  std::vector<LeafValue> values(program.leaves.size());
+  std::vector<NearFace> near;
+  std::vector<bool> is_any(program.leaves.size(), false);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = look_at(leaves_[program.leaves[i].leaf], cell, frame, work);
+    if (values[i] != LeafValue::open) continue;
+    look.max_crossings += work.max_crossings;
+    is_any[i] = work.is_any;
+    // Of what is unknown there is one face, of which nothing is known.
+    if (work.is_unknown) {
+      work.faces = {
+          {.leaf = program.leaves[i].leaf, .surface = unknown_surface, .error = infinity}};
+    }
+    for (const CellFace& face : work.faces) {
+      const auto found = face.surface == unknown_surface
+                             ? look.faces.end()
+                             : std::ranges::find(look.faces, face.surface, &CellFace::surface);
+      near.push_back({.leaf = i,
+                      .number = static_cast<std::size_t>(found - look.faces.begin()),
+                      .flipped = found != look.faces.end() && found->flipped != face.flipped});
+      if (found == look.faces.end()) look.faces.push_back(face);
+    }
+  }
+  auto rest = std::make_shared<OpenProgram>();
+  const std::optional<bool> root = decide(program, values, *rest);
+  if (root) {
+    look.kind = *root ? CellLook::Kind::full : CellLook::Kind::empty;
+    return look;
+  }
+  const bool is_less = rest->leaves.size() < program.leaves.size();
+  look.program = is_less ? rest : cell.program;
+
+  // What is left of the open leaves, with the faces that they need.
+  std::vector<std::size_t> places(program.leaves.size(), rest->leaves.size());
+  for (std::size_t i = 0, j = 0; i < program.leaves.size() && j < rest->leaves.size(); ++i) {
+    if (program.leaves[i].leaf == rest->leaves[j].leaf) places[i] = j++;
+  }
+  std::vector<std::size_t> numbers(look.faces.size(), max_faces);
+  std::vector<CellFace> faces;
+  for (NearFace& face : near) {
+    if (places[face.leaf] == rest->leaves.size()) continue;
+    std::size_t& number = numbers[face.number];
+    if (number == max_faces) {
+      number = faces.size();
+      faces.push_back(look.faces[face.number]);
+      if (faces.size() > max_faces) return look;
+    }
+  }
+  look.faces = std::move(faces);
+  const auto leaf_true = std::make_unique<bool[]>(rest->leaves.size());
+  const std::uint32_t count = 1U << look.faces.size();
+  for (std::uint32_t m = 0; m < count; ++m) {
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i] < rest->leaves.size()) leaf_true[places[i]] = !is_any[i];
+    for (const NearFace& face : near) {
+      const std::size_t place = places[face.leaf];
+      if (place == rest->leaves.size()) continue;
+      const bool is_set = ((m >> numbers[face.number]) & 1U) != 0;
+      const bool negative = is_set != face.flipped;
+      if (negative == is_any[face.leaf]) leaf_true[place] = negative;
+    }
+    for (std::size_t i = 0; i < rest->leaves.size(); ++i) {
+      if (leaves_[rest->leaves[i].leaf].leaf->complemented) leaf_true[i] = !leaf_true[i];
+    }
+    const bool value = rest->value(std::span(leaf_true.get(), rest->leaves.size()));
+    look.inside |= static_cast<std::uint32_t>(value) << m;
+  }
+  drop_faces(look);
+  const auto is_unknown = [](const CellFace& face) { return face.error == infinity; };
+  look.kind = std::ranges::any_of(look.faces, is_unknown) ? CellLook::Kind::unknown
+                                                          : CellLook::Kind::crossed;
+  if (look.faces.empty())
+    look.kind = look.inside != 0 ? CellLook::Kind::full : CellLook::Kind::empty;
+  return look;
+}
+
+}  // namespace crt::core
