@@ -108,6 +108,33 @@ std::optional<bool> said_of(const FaceFunctions& functions, const NearFaces& nea
   return is_all;
 }
 
+bool contains(const PointOf<Interval>& box, const Vec3& point, double margin) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double place = point[static_cast<int>(i)];
+    if (!(place > box[i].lo + margin && place < box[i].hi - margin)) return false;
+  }
+  return true;
+}
+
+/// Requires that a ray to a point of a box crosses no surface in it that no face near it has.
+void check_crossings(const core::Shape& shape, const FaceFunctions& functions,
+                     const NearFaces& near, const PointOf<Interval>& box, const Vec3& to,
+                     Random& random) {
+  if (near.kind == NearFaces::Kind::unknown && near.faces.empty()) return;
+  const core::ObjectRay ray{.origin = to, .direction = random.direction()};
+  const core::CrossingList list = crossings_of(shape, ray).list;
+  for (const core::Crossing& crossing : list) {
+    constexpr double margin = 1e-9;
+    const Vec3 place = ray.origin + crossing.t * ray.direction;
+    if (crossing.error > margin || !contains(box, place, 1e-3 * margin)) continue;
+    const PointOf<Interval> about = box_about(place, Vec3(margin));
+    const bool is_listed =
+        std::any_of(near.faces.begin(), near.faces.end(),
+                    [&](std::uint32_t face) { return functions.value(face, about).contains(0); });
+    REQUIRE((is_listed || list.undecided > 0));
+  }
+}
+
 PointOf<Jet> as_jets(const PointOf<Interval>& box) {
   PointOf<Jet> point;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -208,6 +235,7 @@ TEST_CASE("all solids: what is said of a box holds of its points, and surfaces s
         const std::optional<bool> said = said_of(*functions, near, point);
         const std::optional<bool> truth = said ? is_inside(shape, point, random) : std::nullopt;
         if (truth) REQUIRE(*said == *truth);
+        check_crossings(shape, *functions, near, box, point, random);
       }
     }
   });

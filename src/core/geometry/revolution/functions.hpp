@@ -43,7 +43,7 @@ class RevolutionFunctions {
   }
 
   void look_between_ends(const PointOf<Interval>& box, NearFaces& near) const;
-  /// Turns the faces of walls as bodies have them. Says that nothing is known if a rectangle of the
+  /// Turns the faces of walls as bodies have them. Says that no more is known if a rectangle of the
   /// profile's plane may have a point of the second nappe of a cone.
   void take_walls_of_bodies(const PointOf<Interval>& rectangle, NearFaces& near) const;
 
