@@ -52,7 +52,7 @@ class NearFacets {
       : facets_(facets), face_count_(face_count), box_(box) {}
 
   /// Adds a face if it cuts the box. `facing` is on which side the solid is, if no other triangle
-  /// is in the same place. Returns false if there are too many planes or triangles.
+  /// is in the same place. Returns false if there are too many planes.
   bool add(std::uint32_t face, const Triangle& triangle, Facing facing) {
     const HalfSpaceFunction plane = plane_function(triangle);
     const CutByTriangle of_triangle = cut_by(triangle, plane, box_.box());

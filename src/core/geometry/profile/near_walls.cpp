@@ -39,7 +39,7 @@ int side_of_piece(const Profile::Piece& piece, const PointOf<Interval>& rectangl
     return piece.to.y > piece.from.y ? -sign_of(offset[0]) : sign_of(offset[0]);
   if (piece.from.y == piece.to.y)
     return piece.to.x > piece.from.x ? sign_of(offset[1]) : -sign_of(offset[1]);
-  const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+  const PointOf<Interval> along = way_along(piece);
   return sign_of(along[0] * offset[1] - along[1] * offset[0]);
 }
 
@@ -238,6 +238,11 @@ void RegionLook::look(NearFaces& near) {
 }
 
 }  // namespace
+
+PointOf<Interval> way_along(const Profile::Piece& piece) {
+  const double unit = power_of_two_below(largest_component(piece.to - piece.from));
+  return scaled(relative_to(known_point(piece.to), piece.from), inverse_of_power(unit));
+}
 
 Interval center_across_axis(const Profile::Arc& arc, bool is_turned_about_axis) {
   constexpr double nearly = 0x1p-48;

@@ -48,7 +48,7 @@ void RevolutionFunctions::take_walls_of_bodies(const PointOf<Interval>& rectangl
     const bool is_body = is_level ? piece.to.x < piece.from.x : piece.to.y > piece.from.y;
     if (!is_body) face = face_of_wall(wall_of_face(face), !is_turned(face));
     if (!is_cone(piece)) continue;
-    const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+    const PointOf<Interval> along = way_along(piece);
     const Interval radius = Interval::of(piece.from.x) +
                             (rectangle[1] - Interval::of(piece.from.y)) * (along[0] / along[1]);
     if (!(radius.lo >= 0 || radius.lo + rectangle[0].lo > 0)) near.kind = NearFaces::Kind::unknown;

@@ -37,7 +37,7 @@ class RevolutionFunctions {
     const Number height = point[1] - Interval::of(piece.from.y);
     if (piece.from.y == piece.to.y) return height;
     // A cone has both nappes: the square of the distance from the axis less that of its radius.
-    const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+    const PointOf<Interval> along = way_along(piece);
     return squared_distance * square(along[1]) -
            square(height * along[0] + Interval::of(piece.from.x) * along[1]);
   }
