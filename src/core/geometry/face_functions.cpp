@@ -30,13 +30,10 @@ struct Way {
 }  // namespace
 
 void NearFaces::keep_within(std::uint32_t face) {
-  if (kind == Kind::outside) return;
-  if (kind == Kind::inside || kind == Kind::where_all_negative) {
-    kind = Kind::where_all_negative;
-    faces.push_back(face);
-  } else {
-    say(Kind::unknown);
-  }
+  if (kind == Kind::outside || (kind == Kind::unknown && faces.empty())) return;
+  if (kind == Kind::inside) kind = Kind::where_all_negative;
+  if (kind == Kind::where_any_negative) kind = Kind::unknown;
+  faces.push_back(face);
 }
 
 bool may_overlap(const PointOf<Interval>& box, const Bounds& bounds) {

@@ -35,7 +35,7 @@ struct ExtrusionFunctions {
       return square(x) + square(y) - square(Interval::of(arc.radius));
     }
     const Profile::Piece& piece = profile->pieces()[wall.piece];
-    const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+    const PointOf<Interval> along = way_along(piece);
     const auto [x, y, z] = relative_to(point, piece.from);
     return x * along[1] - y * along[0];
   }

@@ -22,7 +22,7 @@ namespace crt::core {
 /// FieldSlopes are the slopes of a value along so many numbers.
 template <std::size_t numbers>
 struct FieldSlopes {
-  std::array<Interval, numbers> each{};
+  std::array<Interval, numbers> each;
 
   static FieldSlopes unbounded() {
     FieldSlopes result;

@@ -52,7 +52,7 @@ class NearFacets {
       : facets_(facets), face_count_(face_count), box_(box) {}
 
   /// Adds a face if it cuts the box. `facing` is on which side the solid is, if no other triangle
-  /// is in the same place. Returns false if there are too many planes or triangles.
+  /// is in the same place. Returns false if there are too many planes.
   bool add(std::uint32_t face, const Triangle& triangle, Facing facing) {
     const HalfSpaceFunction plane = plane_function(triangle);
     const CutByTriangle of_triangle = cut_by(triangle, plane, box_.box());
@@ -61,28 +61,33 @@ class NearFacets {
       if (facing == Facing::outwards) known_face_ = face;
       if (facing == Facing::inwards) known_face_ = face + face_count_;
     }
-    constexpr std::size_t most_triangles = 64;
-    if (++triangle_count_ > most_triangles) return false;
-    for (std::size_t i = 0; i < cut_count_; ++i) {
-      Cut& cut = cuts_[i];
-      if (!facets_.are_in_one_plane(cut.face, face)) continue;
-      if (facets_.are_opposite(cut.face, face)) cut.flipped = face;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!facets_.are_in_one_plane(faces_[i], face)) continue;
+      if (i < cuts_.size() && facets_.are_opposite(faces_[i], face)) cuts_[i].flipped = face;
       return true;
     }
-    if (cut_count_ == cuts_.size()) return false;
-    Cut cut = cut_by(plane, box_.middle());
-    cut.face = face;
-    cut.flipped = face + face_count_;
-    cuts_[cut_count_++] = cut;
+    if (count_ == faces_.size()) return false;
+    if (count_ < cuts_.size()) {
+      Cut& cut = cuts_[count_];
+      cut = cut_by(plane, box_.middle());
+      cut.face = face;
+      cut.flipped = face + face_count_;
+    }
+    faces_[count_++] = face;
     return true;
   }
 
   template <class Crossings>
   void look(const Crossings& crossings, NearFaces& near) {
-    if (cut_count_ == 1 && known_face_ != invalid_index)
+    if (count_ == 1 && known_face_ != invalid_index)
       return near.say(NearFaces::Kind::where_all_negative, {known_face_});
-    for (std::size_t i = 0; i < cut_count_; ++i) box_.add(cuts_[i]);
-    box_.look([&](const Vec3& point) { return is_inside_by_line(point, crossings); }, near);
+    near.say(NearFaces::Kind::unknown);
+    if (count_ <= cuts_.size()) {
+      for (std::size_t i = 0; i < count_; ++i) box_.add(cuts_[i]);
+      box_.look([&](const Vec3& point) { return is_inside_by_line(point, crossings); }, near);
+    }
+    if (near.kind == NearFaces::Kind::unknown)
+      near.faces.assign(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(count_));
   }
 
  private:
@@ -90,8 +95,8 @@ class NearFacets {
   std::uint32_t face_count_;
   CutBox box_;
   std::array<Cut, CutBox::most_cuts> cuts_;
-  std::size_t cut_count_ = 0;
-  std::size_t triangle_count_ = 0;
+  std::array<std::uint32_t, 16> faces_{};  ///< one for each plane that cuts the box
+  std::size_t count_ = 0;
   std::uint32_t known_face_ = invalid_index;  ///< has the solid just where its function is below 0
 };
 

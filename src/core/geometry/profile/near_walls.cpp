@@ -39,7 +39,7 @@ int side_of_piece(const Profile::Piece& piece, const PointOf<Interval>& rectangl
     return piece.to.y > piece.from.y ? -sign_of(offset[0]) : sign_of(offset[0]);
   if (piece.from.y == piece.to.y)
     return piece.to.x > piece.from.x ? sign_of(offset[1]) : -sign_of(offset[1]);
-  const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+  const PointOf<Interval> along = way_along(piece);
   return sign_of(along[0] * offset[1] - along[1] * offset[0]);
 }
 
@@ -64,8 +64,13 @@ class RegionLook {
   bool are_whole(const Profile::Piece& one, const Profile::Piece& other) const;
   /// Returns the piece that has the rest of the circle of an arc, or else its own.
   std::uint32_t other_half(std::uint32_t piece) const;
-  /// Adds a cut, unless there is one with this key.
-  void add_cut(const Cut& cut, std::size_t key);
+  /// Lists the face of a straight line or a circle, which a key tells from others. Returns whether
+  /// it is new.
+  bool list(std::size_t key, std::uint32_t face);
+  std::size_t line_key(const Profile::Piece& piece) const { return piece.first; }
+  std::size_t circle_key(std::uint32_t number) const { return profile_.pieces().size() + number; }
+  /// Adds a cut for a wall that is new. There may be too many.
+  void add_cut(Cut cut, std::uint32_t wall);
   Cut flat_cut(const Profile::Piece& piece) const;
   Cut arc_cut(const Profile::Arc& arc) const;
   /// Returns whether a corner is in the rectangle. On an axis none counts.
@@ -79,13 +84,15 @@ class RegionLook {
   const Profile& profile_;
   bool about_axis_;
   CutBox cut_box_;
-  std::array<std::size_t, CutBox::most_cuts> keys_{};  ///< of the cuts
-  std::size_t cut_count_ = 0;
-  std::size_t wall_count_ = 0;
+  static constexpr std::size_t most_listed = 16;
+  std::array<std::size_t, most_listed> keys_{};
+  std::array<std::uint32_t, most_listed> faces_{};
+  std::size_t listed_ = 0;
+  bool has_more_ = false;  ///< walls than are listed
   bool has_arcs_ = false;
   bool has_repeats_ = false;  ///< straight walls on one line
   bool has_corners_ = false;  ///< of straight walls
-  bool failed_ = false;
+  bool failed_ = false;       ///< what the walls do here is not plain
 };
 
 int RegionLook::side_of_circle(const Profile::Arc& arc) const {
@@ -109,18 +116,23 @@ std::uint32_t RegionLook::other_half(std::uint32_t piece) const {
   return piece;
 }
 
-void RegionLook::add_cut(const Cut& cut, std::size_t key) {
-  ++wall_count_;
-  const std::span<const std::size_t> known = std::span(keys_).first(cut_count_);
-  if (std::find(known.begin(), known.end(), key) != known.end()) {
-    has_repeats_ = has_repeats_ || key < profile_.pieces().size();
-    return;
+bool RegionLook::list(std::size_t key, std::uint32_t face) {
+  const std::span<const std::size_t> known = std::span(keys_).first(listed_);
+  if (std::find(known.begin(), known.end(), key) != known.end()) return false;
+  if (listed_ == most_listed) {
+    has_more_ = true;
+    return false;
   }
-  if (cut_count_ == CutBox::most_cuts) {
-    failed_ = true;
-    return;
-  }
-  keys_[cut_count_++] = key;
+  keys_[listed_] = key;
+  faces_[listed_++] = face;
+  return true;
+}
+
+void RegionLook::add_cut(Cut cut, std::uint32_t wall) {
+  failed_ = failed_ || listed_ > CutBox::most_cuts;
+  if (failed_) return;
+  cut.face = face_of_wall(wall, false);
+  cut.flipped = face_of_wall(wall, true);
   cut_box_.add(cut);
 }
 
@@ -144,20 +156,18 @@ Cut RegionLook::arc_cut(const Profile::Arc& arc) const {
 
 void RegionLook::add_flat(std::uint32_t number) {
   const Profile::Piece& piece = profile_.pieces()[number];
-  Cut cut = flat_cut(piece);
-  cut.face = face_of_wall(number, false);
-  cut.flipped = face_of_wall(number, true);
   has_corners_ = has_corners_ || has_corner(piece);
-  // All pieces of one straight line are one cut.
-  add_cut(cut, piece.first);
+  if (list(line_key(piece), face_of_wall(number, false))) {
+    add_cut(flat_cut(piece), number);
+  } else {
+    has_repeats_ = true;
+  }
 }
 
 void RegionLook::add_arc(std::uint32_t number) {
-  Cut cut = arc_cut(profile_.arcs()[profile_.pieces()[number].arc]);
-  cut.face = face_of_wall(number, false);
-  cut.flipped = face_of_wall(number, true);
   has_arcs_ = true;
-  add_cut(cut, profile_.pieces().size() + number);
+  if (list(circle_key(number), face_of_wall(number, false)))
+    add_cut(arc_cut(profile_.arcs()[profile_.pieces()[number].arc]), number);
 }
 
 void RegionLook::add(std::uint32_t number) {
@@ -185,14 +195,18 @@ void RegionLook::add(std::uint32_t number) {
   // The line of the chord passes. Within the circle it is no boundary but next to the corners.
   constexpr double safety = 4;
   const double margin = safety * arc.margin * glm::length(piece.to - piece.from);
-  failed_ = failed_ || of_circle == 0 || contains(rectangle(), piece.from, margin) ||
-            contains(rectangle(), piece.to, margin);
+  if (of_circle != 0 && !contains(rectangle(), piece.from, margin) &&
+      !contains(rectangle(), piece.to, margin))
+    return;
+  failed_ = true;
+  list(circle_key(number), face_of_wall(number, false));
+  list(line_key(piece), face_of_wall(profile_.chord_of(piece.arc), false));
 }
 
 void RegionLook::find_walls() {
   OpenNodes<std::uint32_t, 128> open;
   open.push(0);
-  while (!open.empty() && !failed_) {
+  while (!open.empty() && !has_more_) {
     profile_.tree().for_each_child(open.pop(), [&](Bvh::Child child, const Bounds& box) {
       if (!touches(rectangle(), box)) return;
       if (!child.is_leaf()) return open.push(child.index());
@@ -200,25 +214,35 @@ void RegionLook::find_walls() {
            profile_.tree().order().subspan(child.index(), child.count()))
         add(piece);
     });
-    constexpr std::size_t most_walls = 16;
-    failed_ = failed_ || wall_count_ > most_walls;
   }
 }
 
 void RegionLook::look(NearFaces& near) {
   find_walls();
+  near.say(NearFaces::Kind::unknown);
+  if (has_more_) return;
   // Walls without ends here go all the way through, and the region is on one side of each.
   const bool takes_turns = !has_corners_ && !has_repeats_;
-  if (failed_ || (has_arcs_ && !takes_turns)) return near.say(NearFaces::Kind::unknown);
-  const auto is_inside = [&](const Vec3& point) -> std::optional<bool> {
-    const ObjectRay across{.origin = point};
-    return PlaneLine(across).is_inside(profile_);
-  };
-  if (takes_turns) return cut_box_.look_by_turns(is_inside, near);
-  cut_box_.look(is_inside, near);
+  if (!failed_ && (takes_turns || !has_arcs_)) {
+    const auto is_inside = [&](const Vec3& point) -> std::optional<bool> {
+      const ObjectRay across{.origin = point};
+      return PlaneLine(across).is_inside(profile_);
+    };
+    if (takes_turns) {
+      cut_box_.look_by_turns(is_inside, near);
+    } else {
+      cut_box_.look(is_inside, near);
+    }
+  }
+  if (near.kind == NearFaces::Kind::unknown) near.faces.assign(&faces_[0], &faces_[listed_]);
 }
 
 }  // namespace
+
+PointOf<Interval> way_along(const Profile::Piece& piece) {
+  const double unit = power_of_two_below(largest_component(piece.to - piece.from));
+  return scaled(relative_to(known_point(piece.to), piece.from), inverse_of_power(unit));
+}
 
 Interval center_across_axis(const Profile::Arc& arc, bool is_turned_about_axis) {
   constexpr double nearly = 0x1p-48;

@@ -12,6 +12,10 @@ namespace crt::core {
 void look_at_region(const Profile& profile, bool is_turned_about_axis,
                     const PointOf<Interval>& rectangle, NearFaces& near);
 
+/// Returns the vector along a straight piece, times a power of two that brings its largest
+/// component near 1.
+PointOf<Interval> way_along(const Profile::Piece& piece);
+
 /// Returns the place of an arc's center across the axis. In solids that are turned about that the
 /// axis may be in its place (ring_of()).
 Interval center_across_axis(const Profile::Arc& arc, bool is_turned_about_axis);

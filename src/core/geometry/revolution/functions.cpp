@@ -48,11 +48,10 @@ void RevolutionFunctions::take_walls_of_bodies(const PointOf<Interval>& rectangl
     const bool is_body = is_level ? piece.to.x < piece.from.x : piece.to.y > piece.from.y;
     if (!is_body) face = face_of_wall(wall_of_face(face), !is_turned(face));
     if (!is_cone(piece)) continue;
-    const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+    const PointOf<Interval> along = way_along(piece);
     const Interval radius = Interval::of(piece.from.x) +
                             (rectangle[1] - Interval::of(piece.from.y)) * (along[0] / along[1]);
-    if (!(radius.lo >= 0 || radius.lo + rectangle[0].lo > 0))
-      return near.say(NearFaces::Kind::unknown);
+    if (!(radius.lo >= 0 || radius.lo + rectangle[0].lo > 0)) near.kind = NearFaces::Kind::unknown;
   }
 }
 
@@ -80,8 +79,10 @@ void RevolutionFunctions::look_between_ends(const PointOf<Interval>& box, NearFa
     for (std::uint32_t i = 0; i < crossing_count; ++i) near.keep_within(crossing[i]);
   } else if (near.kind == NearFaces::Kind::inside) {
     near.say(NearFaces::Kind::where_any_negative, {0, 1});
-  } else if (near.kind != NearFaces::Kind::outside) {
-    near.say(NearFaces::Kind::unknown);
+  } else {
+    // It is cut by walls or nothing is known, and keeps its faces.
+    for (const std::uint32_t end : crossing) near.keep_within(end);
+    if (near.kind != NearFaces::Kind::outside) near.kind = NearFaces::Kind::unknown;
   }
 }
 

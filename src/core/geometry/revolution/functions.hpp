@@ -37,13 +37,13 @@ class RevolutionFunctions {
     const Number height = point[1] - Interval::of(piece.from.y);
     if (piece.from.y == piece.to.y) return height;
     // A cone has both nappes: the square of the distance from the axis less that of its radius.
-    const PointOf<Interval> along = unit_vector(piece.from, piece.to);
+    const PointOf<Interval> along = way_along(piece);
     return squared_distance * square(along[1]) -
            square(height * along[0] + Interval::of(piece.from.x) * along[1]);
   }
 
   void look_between_ends(const PointOf<Interval>& box, NearFaces& near) const;
-  /// Turns the faces of walls as bodies have them. Says that nothing is known if a rectangle of the
+  /// Turns the faces of walls as bodies have them. Says that no more is known if a rectangle of the
   /// profile's plane may have a point of the second nappe of a cone.
   void take_walls_of_bodies(const PointOf<Interval>& rectangle, NearFaces& near) const;
 
