@@ -19,7 +19,7 @@ class Column {
 
   /// Finds walls and heights. Returns false if a face is neither.
   bool find_faces() {
-    if (!faces_.find(solid_, look_, frame_)) return false;
+    if (!faces_.find(solid_, look_, frame_, 0.25 * question_.height_tolerance)) return false;
     for (const ColumnHeight& height : faces_.heights) error_of_heights_ += height.place.error;
     return true;
   }

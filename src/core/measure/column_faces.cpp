@@ -13,55 +13,83 @@ using SeriesJet = JetOf<PatchSeries>;
 /// A function that changes less along the column than this, relative to across, is a wall.
 constexpr double straight = 0x1p-44;
 
-/// Finds the height of a face, or nothing if it is not known to be one.
-std::optional<ColumnHeight> find_height(const CellSolid& solid, const CellLook& look,
-                                        const ColumnFrame& frame, std::size_t number) {
-  const CellFace& face = look.faces[number];
-  double middle = frame.frame.middle[frame.c];
-  Vec3 slopes{0, 0, 0};
-  for (int step = 0; step < 4; ++step) {
+/// A HeightSearch finds the height of a face.
+class HeightSearch {
+ public:
+  HeightSearch(const CellSolid& solid, const CellFace& face, const ColumnFrame& frame)
+      : solid_(solid), face_(face), frame_(frame) {}
+
+  /// Returns the height to a tolerance, if it can be, or nothing if it is not known to be one.
+  std::optional<PatchSeries> find(double tolerance) {
+    if (!find_middle()) return {};
+    const int c = frame_.c;
+    const auto half = [&](int axis) {
+      return 0.5 * (frame_.box.upper[axis] - frame_.box.lower[axis]);
+    };
+    height_ = PatchSeries::linear(middle_, -slopes_[frame_.a] / slopes_[c] * half(frame_.a),
+                                  -slopes_[frame_.b] / slopes_[c] * half(frame_.b));
+    // Each step finds the terms of one degree more, until they are enough.
+    for (std::size_t degree = 1;; ++degree) {
+      const PatchSeries off = solid_.value(face_, frame_.places_of(height_));
+      const double error = rounded_up(range_of(off).magnitude() / std::abs(slopes_[c]));
+      // The least slope is about that in the middle, but only it proves anything.
+      if (error <= 0.5 * tolerance || degree == PatchSeries::degree) return proved(off);
+      for (std::size_t i = 0; i <= PatchSeries::place(0, degree + 1); ++i)
+        height_.terms[i] -= off.terms[i] / slopes_[c];
+    }
+  }
+
+ private:
+  /// Finds the height in the middle by Newton's iteration, and the slopes of the function there.
+  bool find_middle() {
+    const int c = frame_.c;
+    middle_ = frame_.frame.middle[c];
     std::array<Interval, 3> place;
-    for (int axis = 0; axis < 3; ++axis) place[at(axis)] = Interval::of(frame.frame.middle[axis]);
-    place[at(frame.c)] = Interval::of(middle);
-    const Jet jet = solid.value(face, jets_of(place));
-    for (int axis = 0; axis < 3; ++axis)
-      slopes[axis] = 0.5 * jet.slope[at(axis)].lo + 0.5 * jet.slope[at(axis)].hi;
-    if (slopes[frame.c] == 0) return {};
-    middle -= (0.5 * jet.value.lo + 0.5 * jet.value.hi) / slopes[frame.c];
-    if (!std::isfinite(middle)) return {};
-    // Of a face that is far beyond an end no more has to be known.
-    middle = std::clamp(middle, frame.box.lower[frame.c] - 2 * frame.frame.half[frame.c],
-                        frame.box.upper[frame.c] + 2 * frame.frame.half[frame.c]);
+    for (int axis = 0; axis < 3; ++axis) place[at(axis)] = Interval::of(frame_.frame.middle[axis]);
+    for (int step = 0; step < 4; ++step) {
+      place[at(c)] = Interval::of(middle_);
+      const Jet jet = solid_.value(face_, jets_of(place));
+      for (int axis = 0; axis < 3; ++axis)
+        slopes_[axis] = 0.5 * jet.slope[at(axis)].lo + 0.5 * jet.slope[at(axis)].hi;
+      if (slopes_[c] == 0) return false;
+      const double step_by = (0.5 * jet.value.lo + 0.5 * jet.value.hi) / slopes_[c];
+      if (!std::isfinite(step_by)) return false;
+      // Of a face that is far beyond an end no more has to be known.
+      middle_ = std::clamp(middle_ - step_by, frame_.box.lower[c] - 2 * frame_.frame.half[c],
+                           frame_.box.upper[c] + 2 * frame_.frame.half[c]);
+      if (std::abs(step_by) <= 0x1p-40 * frame_.frame.half[c]) break;
+    }
+    return true;
   }
-  PatchSeries height =
-      PatchSeries::linear(middle,
-                          -slopes[frame.a] / slopes[frame.c] *
-                              (0.5 * (frame.box.upper[frame.a] - frame.box.lower[frame.a])),
-                          -slopes[frame.b] / slopes[frame.c] *
-                              (0.5 * (frame.box.upper[frame.b] - frame.box.lower[frame.b])));
-  // Each step finds the terms of one degree more.
-  for (std::size_t step = 1; step < PatchSeries::degree; ++step) {
-    const PatchSeries off = solid.value(face, frame.places_of(height));
-    for (std::size_t i = 0; i <= PatchSeries::place(0, step + 1); ++i)
-      height.terms[i] -= off.terms[i] / slopes[frame.c];
+
+  /// Returns the height with its error. `off` is what the function is there. By the mean value
+  /// theorem the face is no farther away than that over the least slope, which is taken where the
+  /// height may be, and where the face crosses the cell.
+  std::optional<PatchSeries> proved(const PatchSeries& off) const {
+    const int c = frame_.c;
+    Interval range = range_of(height_);
+    const double margin = 0.125 * range.width() + 0x1p-40 * range.magnitude();
+    range = {range.lo - margin, range.hi + margin};
+    if (!(range.hi >= frame_.box.lower[c] && range.lo <= frame_.box.upper[c])) return {};
+    std::array<Interval, 3> around = intervals_of(frame_.box);
+    around[at(c)] = range;
+    const Interval slope = solid_.value(face_, jets_of(around)).slope[at(c)];
+    const bool grows = face_.slopes[at(c)].lo > 0;
+    if (slope.contains(0) || (slope.lo > 0) != grows) return {};
+    const double least = std::min(std::abs(slope.lo), std::abs(slope.hi));
+    PatchSeries result = height_;
+    result.error = rounded_up(rounded_up(range_of(off).magnitude()) / least);
+    if (!(result.error <= margin)) return {};
+    return result;
   }
-  const double off = range_of(solid.value(face, frame.places_of(height))).magnitude();
-  // By the mean value theorem the face is no farther away than this over the least slope. That is
-  // taken where the height may be, and where the face crosses the cell.
-  Interval range = range_of(height);
-  const double margin = 0.125 * range.width() + 0x1p-40 * range.magnitude();
-  range = {range.lo - margin, range.hi + margin};
-  if (!(range.hi >= frame.box.lower[frame.c] && range.lo <= frame.box.upper[frame.c])) return {};
-  std::array<Interval, 3> around = intervals_of(frame.box);
-  around[at(frame.c)] = range;
-  const Interval slope = solid.value(face, jets_of(around)).slope[at(frame.c)];
-  const bool grows = face.slopes[at(frame.c)].lo > 0;
-  if (slope.contains(0) || (slope.lo > 0) != grows) return {};
-  const double least = std::min(std::abs(slope.lo), std::abs(slope.hi));
-  height.error = rounded_up(rounded_up(off) / least);
-  if (!(height.error <= margin)) return {};
-  return ColumnHeight{number, grows, height};
-}
+
+  const CellSolid& solid_;
+  const CellFace& face_;
+  const ColumnFrame& frame_;
+  double middle_ = 0;
+  Vec3 slopes_{0, 0, 0};
+  PatchSeries height_;
+};
 
 }  // namespace
 
@@ -80,7 +108,8 @@ std::array<PatchSeries, 3> ColumnFrame::places_of(const PatchSeries& height) con
   return place;
 }
 
-bool ColumnFaces::find(const CellSolid& solid, const CellLook& look, const ColumnFrame& frame) {
+bool ColumnFaces::find(const CellSolid& solid, const CellLook& look, const ColumnFrame& frame,
+                       double tolerance) {
   for (std::size_t i = 0; i < look.faces.size(); ++i) {
     const CellFace& face = look.faces[i];
     const double along = std::abs(face.slope[frame.c]) + face.error;
@@ -91,9 +120,9 @@ bool ColumnFaces::find(const CellSolid& solid, const CellLook& look, const Colum
     }
     if (face.slopes[at(frame.c)].contains(0) || !solid.functions(face.leaf).has_series())
       return false;
-    const std::optional<ColumnHeight> height = find_height(solid, look, frame, i);
+    const std::optional<PatchSeries> height = HeightSearch(solid, face, frame).find(tolerance);
     if (!height) return false;
-    heights.push_back(*height);
+    heights.push_back({i, face.slopes[at(frame.c)].lo > 0, *height});
   }
   return !heights.empty();
 }

@@ -54,8 +54,10 @@ struct ColumnFaces {
   std::vector<ColumnWall> walls;
   std::vector<ColumnHeight> heights;
 
-  /// Finds walls and heights. Returns false if a face is neither, or none is a height.
-  bool find(const CellSolid& solid, const CellLook& look, const ColumnFrame& frame);
+  /// Finds walls, and heights to a tolerance if they can be. Returns false if a face is neither, or
+  /// none is a height.
+  bool find(const CellSolid& solid, const CellLook& look, const ColumnFrame& frame,
+            double tolerance);
 };
 
 /// Returns how much area a height has over one across the column.
