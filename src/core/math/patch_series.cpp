@@ -32,6 +32,18 @@ std::array<double, degree + 1> sizes_by_degree(const PatchSeries& a) {
   return sizes;
 }
 
+/// Returns the place of the first term of a degree.
+constexpr std::size_t first_of(std::size_t d) {
+  return d * (d + 1) / 2;
+}
+
+/// Returns the highest degree of which there are terms.
+std::size_t top_degree(const std::array<double, degree + 1>& sizes) {
+  std::size_t top = degree;
+  while (top > 0 && sizes[top] == 0) --top;
+  return top;
+}
+
 double sum_of(const std::array<double, degree + 1>& sizes) {
   double sum = 0;
   for (const double size : sizes) sum += size;
@@ -106,10 +118,13 @@ PatchSeries operator-(const PatchSeries& a, const PatchSeries& b) {
 }
 
 PatchSeries operator*(const PatchSeries& a, const PatchSeries& b) {
+  const auto sizes_a = sizes_by_degree(a);
+  const auto sizes_b = sizes_by_degree(b);
+  const std::size_t top_a = top_degree(sizes_a);
+  const std::size_t top_b = top_degree(sizes_b);
   PatchSeries result;
-  const auto first_of = [](std::size_t d) { return d * (d + 1) / 2; };
-  for (std::size_t d = 0; d <= degree; ++d) {
-    for (std::size_t e = 0; d + e <= degree; ++e) {
+  for (std::size_t d = 0; d <= top_a; ++d) {
+    for (std::size_t e = 0; e <= std::min(top_b, degree - d); ++e) {
       double* const out = &result.terms[first_of(d + e)];
       for (std::size_t i = 0; i <= d; ++i) {
         const double factor = a.terms[first_of(d) + i];
@@ -117,11 +132,9 @@ PatchSeries operator*(const PatchSeries& a, const PatchSeries& b) {
       }
     }
   }
-  const auto sizes_a = sizes_by_degree(a);
-  const auto sizes_b = sizes_by_degree(b);
   double beyond = 0;
-  for (std::size_t d = 1; d <= degree; ++d) {
-    for (std::size_t e = degree + 1 - d; e <= degree; ++e) beyond += sizes_a[d] * sizes_b[e];
+  for (std::size_t d = degree + 1 - std::min(top_b, degree); d <= top_a; ++d) {
+    for (std::size_t e = degree + 1 - d; e <= top_b; ++e) beyond += sizes_a[d] * sizes_b[e];
   }
   const double size_a = sum_of(sizes_a);
   const double size_b = sum_of(sizes_b);
@@ -189,11 +202,13 @@ Interval range_of(const PatchSeries& a) {
 
 PatchSeries part_of(const PatchSeries& a, double s, double t, double size) {
   PatchSeries result = a;
-  // Shifting takes multiples of higher terms to lower ones (Horner), along t and then along s.
+  const auto sizes = sizes_by_degree(a);
+  const std::size_t top = top_degree(sizes);
+  // Shifting takes multiples of higher terms to lower ones (Horner), along s and then along t.
   const auto shift = [&](double by, const auto& place) {
-    for (std::size_t row = 0; row <= degree; ++row) {
-      for (std::size_t first = 0; first + row < degree; ++first) {
-        for (std::size_t i = degree - row; i-- > first;)
+    for (std::size_t row = 0; row < top; ++row) {
+      for (std::size_t first = 0; first + row < top; ++first) {
+        for (std::size_t i = top - row; i-- > first;)
           result.terms[place(i, row)] += by * result.terms[place(i + 1, row)];
       }
     }
@@ -201,14 +216,10 @@ PatchSeries part_of(const PatchSeries& a, double s, double t, double size) {
   shift(s, [](std::size_t i, std::size_t j) { return PatchSeries::place(i, j); });
   shift(t, [](std::size_t j, std::size_t i) { return PatchSeries::place(i, j); });
   double power = 1;
-  double terms = 0;
-  for (std::size_t d = 0, place = 0; d <= degree; ++d, power *= size) {
-    for (std::size_t j = 0; j <= d; ++j, ++place) {
-      terms += std::abs(a.terms[place]);
-      result.terms[place] *= power;
-    }
+  for (std::size_t d = 0, place = 0; d <= top; ++d, power *= size) {
+    for (std::size_t j = 0; j <= d; ++j, ++place) result.terms[place] *= power;
   }
-  result.error = (a.error + product_rounding * terms) * bound_slack;
+  result.error = (a.error + product_rounding * sum_of(sizes)) * bound_slack;
   return result;
 }
 

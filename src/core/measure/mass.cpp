@@ -67,7 +67,7 @@ class MassSearch {
       // The surface is about as large as that of the box around the solid.
       question_.height_tolerance = options_.relative_width *
                                    (0.5 * all.volume.lo + 0.5 * all.volume.hi) /
-                                   (8 * surface_of_box_);
+                                   (2 * surface_of_box_);
       if (some == 0) break;
       divide(cells, some);
       put_away(cells);
