@@ -74,6 +74,8 @@ TEST_CASE(
   const auto at_zero = box_about({0, 0, 0}, Vec3(0.125));
   CHECK(functions->value(0, at_zero).magnitude() == core::infinity);
   CHECK(functions->value(0, as_jets(at_zero)).slope[1].magnitude() == core::infinity);
+  const core::PointOf<Interval> endless = {Interval{0.25, core::infinity}, Interval{}, Interval{}};
+  CHECK(functions->value(0, endless).hi == core::infinity);
 }
 
 TEST_CASE("the second nappe of a cone that is turned is not taken for a part of it") {
