@@ -1,6 +1,7 @@
 #include "core/compile/instancing.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <unordered_set>
 #include <vector>
 
@@ -37,6 +38,7 @@ Instancing::Instancing(std::span<const Entity> entities) {
   if (primitives < fewest_primitives) return;
   std::vector<const EntityNode*> open;
   const auto use = [&](const EntityNode& wrapped) {
+    if (wrapped.primitive_count < 2) return;  // not worth sharing, nor any part of it
     const EntityNode& node = without_wrapper(wrapped);
     if (++uses_[&node] == 1 && union_of(node) != nullptr) open.push_back(&node);
   };
@@ -55,8 +57,16 @@ Instancing::Instancing(std::span<const Entity> entities) {
     // Unions of surfaces are as many objects.
     const bool is_one_object = node->solid || std::holds_alternative<Primitive>(node->content);
     const std::uint64_t count = std::min(node->primitive_count, fewest_primitives);
-    return !is_one_object || count < 2 || uses < fewest_uses || count * uses < fewest_primitives;
+    return !is_one_object || uses < fewest_uses || count * uses < fewest_primitives;
   });
+}
+
+std::vector<const EntityNode*> Instancing::shared_nodes() const {
+  std::vector<const EntityNode*> nodes;
+  nodes.reserve(uses_.size());
+  for (const auto& [node, uses] : uses_) nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end(), std::less<>());
+  return nodes;
 }
 
 Instancing::Count Instancing::count(std::span<const Entity> entities, std::uint64_t most) const {

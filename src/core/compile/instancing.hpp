@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <unordered_map>
+#include <vector>
 
 #include "core/compile/part.hpp"
 #include "crt/entity.hpp"
@@ -28,6 +29,9 @@ class Instancing {
   bool is_shared(const EntityNode& node) const {
     return !uses_.empty() && uses_.find(&node) != uses_.end();
   }
+
+  /// Returns the nodes that are shared, sorted by where they are in memory.
+  std::vector<const EntityNode*> shared_nodes() const;
 
   /// A Count is of what is compiled.
   struct Count {
