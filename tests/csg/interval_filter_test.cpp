@@ -273,13 +273,13 @@ class Comparison {
   void compare_change(const WorldRay& ray, const CsgHit* hit, Counts& counts) {
     const FilterLine<double> line = line_of(ray);
     const bool on_surface = ray.start.surface != invalid_index;
-    const BoundaryTransitions<double> change = program().filter.first_transitions<double>(
-        {.lines = line,
-         .limits = ray.t_max,
-         .asked = 1,
-         .on_surface = on_surface,
-         .starts = {&ray.start, 1}},
-        object(), near_leaves_, csg_work_.steps);
+    const BoundaryTransitions<double> change =
+        program().filter.first_transitions<double>({.lines = line,
+                                                    .limits = ray.t_max,
+                                                    .asked = 1,
+                                                    .on_surface = on_surface,
+                                                    .starts = {&ray.start, 1}},
+                                                   object(), near_leaves_, csg_work_.steps);
     if (change.none) {
       ++counts.missed;
       REQUIRE(hit == nullptr);

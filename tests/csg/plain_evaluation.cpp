@@ -19,8 +19,7 @@ struct Values {
 
 class Plain {
  public:
-  Plain(const core::CompiledScene& scene, const core::CsgObject& object,
-        const core::WorldRay& ray)
+  Plain(const core::CompiledScene& scene, const core::CsgObject& object, const core::WorldRay& ray)
       : scene_(scene),
         program_(object.program),
         first_leaf_(object.first_leaf),

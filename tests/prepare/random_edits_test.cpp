@@ -100,8 +100,8 @@ class EditedScene {
   void edit_one() {
     std::vector<Entity>& entities = scene.entities;
     const int what = entities.empty() ? 4 : make_.integer(0, 7);
-    const auto place = static_cast<std::size_t>(
-        entities.empty() ? 0 : below(static_cast<int>(entities.size())));
+    const auto place =
+        static_cast<std::size_t>(entities.empty() ? 0 : below(static_cast<int>(entities.size())));
     const auto at = entities.begin() + static_cast<std::ptrdiff_t>(place);
     switch (what) {
       case 0:
@@ -149,45 +149,60 @@ class EditedScene {
   Entity some_mesh_;
 };
 
-/// Compares what rays find, and those that go on from there.
-void check_rays(EditedScene& edited, const PreparedData& one, const PreparedData& other) {
+/// Returns whether what rays find is the same, and what those find that go on from there.
+bool same_rays(EditedScene& edited, const PreparedData& one, const PreparedData& other) {
   core::RayWorkspace work;
   core::RayWorkspace other_work;
   std::vector<WorldRay> rays(core::packet_size);
   for (WorldRay& ray : rays) ray = edited.some_ray();
+  bool are_same = true;
   for (int bounce = 0; bounce < 2; ++bounce) {
     std::array<core::RayHit, core::packet_size> hits;
     std::array<core::RayHit, core::packet_size> other_hits;
     intersect_as_packet(one, rays, hits, work);
     intersect_as_packet(other, rays, other_hits, other_work);
-    CHECK(occluded_as_packet(one, rays, work) == occluded_as_packet(other, rays, other_work));
+    are_same = are_same && std::ranges::equal(hits, other_hits, same) &&
+               occluded_as_packet(one, rays, work) == occluded_as_packet(other, rays, other_work);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      REQUIRE(same(hits.at(i), other_hits.at(i)));
-      REQUIRE(same(one.intersect(rays[i], work), other.intersect(rays[i], other_work)));
       std::vector<core::RayHit> line;
       std::vector<core::RayHit> other_line;
       one.crossings(rays[i], line, work);
       other.crossings(rays[i], other_line, other_work);
-      REQUIRE(std::ranges::equal(line, other_line, same));
       const core::RayHit& hit = hits.at(i);
-      if (!hit.found()) continue;
-      REQUIRE(one.entity_id(hit) == other.entity_id(hit));
-      REQUIRE(one.ids(hit).part == other.ids(hit).part);
-      REQUIRE(one.hit_material(hit) == other.hit_material(hit));
+      are_same = are_same && std::ranges::equal(line, other_line, same) &&
+                 same(one.intersect(rays[i], work), other.intersect(rays[i], other_work)) &&
+                 one.innermost(rays[i].origin, work).leaf ==
+                     other.innermost(rays[i].origin, other_work).leaf;
+      if (!hit.found() || !are_same) continue;
+      are_same = one.entity_id(hit) == other.entity_id(hit) &&
+                 one.ids(hit).part == other.ids(hit).part &&
+                 one.ids(hit).user == other.ids(hit).user &&
+                 one.hit_material(hit) == other.hit_material(hit);
       rays[i] = {.origin = one.hit_point(rays[i], hit).position,
                  .direction = edited.some_ray().direction,
                  .start = one.start_point(rays[i], hit, core::Side::outside)};
     }
   }
+  return are_same;
 }
 
-void check_pictures(const PreparedScene& one, const PreparedScene& other) {
-  CHECK(std::ranges::equal(render(one).pixels(), render(other).pixels()));
+bool same_pictures(const PreparedScene& one, const PreparedScene& other) {
+  return std::ranges::equal(render(one).pixels(), render(other).pixels());
 }
 
-/// Edits a scene so many times, and compares what is prepared from the one before.
-void check_edits(EditedScene& edited, int count, int edits_a_picture) {
+/// Returns whether a scene has something from an earlier one.
+bool has_kept(const PreparedData& data, const PreparedData& earlier) {
+  const auto& stores = earlier.compiled().stores;
+  return std::ranges::any_of(data.compiled().stores, [&](const auto& store) {
+    return std::find(stores.begin(), stores.end(), store) != stores.end();
+  });
+}
+
+/// Edits a scene so many times, and compares what is prepared from the one before with what is
+/// prepared anew. Returns how often anything was kept.
+int check_edits(EditedScene& edited, int count, int edits_a_picture) {
   PreparedScene prepared = prepare(edited.scene);
+  int kept = 0;
   for (int i = 0; i < count; ++i) {
     CAPTURE(i);
     edited.edit();
@@ -196,18 +211,94 @@ void check_edits(EditedScene& edited, int count, int edits_a_picture) {
     REQUIRE(same_scene(next.data().compiled(), anew.data().compiled()));
     REQUIRE(same_materials(next.data().material_table(), anew.data().material_table()));
     REQUIRE(next.warnings() == anew.warnings());
-    check_rays(edited, next.data(), anew.data());
-    if (i % edits_a_picture == 0) check_pictures(next, anew);
+    REQUIRE(same_rays(edited, next.data(), anew.data()));
+    if (i % edits_a_picture == 0) REQUIRE(same_pictures(next, anew));
+    kept += has_kept(next.data(), prepared.data()) ? 1 : 0;
     prepared = next;
   }
+  return kept;
 }
 
 }  // namespace
 
-TEST_CASE("a scene after random edits is the same whether or not it is prepared from the one before") {
+TEST_CASE(
+    "a scene after random edits is the same whether or not it is prepared from an earlier one") {
+  int kept = 0;
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);
     EditedScene edited(seed, seed % 4 == 0 ? 90 : 12);
-    check_edits(edited, 100, 25);
+    kept += check_edits(edited, 100, 25);
   }
+  CHECK(kept > 5000);
+}
+
+TEST_CASE("instances that come, go and move are the same as if they were prepared anew") {
+  // So many copies are worth sharing or not, by turns.
+  Random random(5);
+  const Entity ball = ball_mesh(random, 17, 0).entity();
+  REQUIRE(ball.primitive_count() > 2048);
+  EditedScene edited(5, 10);
+  edited.scene.settings.precision = Precision::standard;
+  std::vector<Entity>& entities = edited.scene.entities;
+  const auto copy_at = [&](double x) {
+    return ball.transformed(translate({0.9 * x, 0.1 * x, 0})).with_material(Material{});
+  };
+  for (int i = 0; i < 18; ++i) entities.push_back(copy_at(i));
+  PreparedScene prepared = prepare(edited.scene);
+  int with_instances = 0;
+  int kept = 0;
+  for (int i = 0; i < 40; ++i) {
+    CAPTURE(i);
+    const auto place = static_cast<std::size_t>(edited.below(static_cast<int>(entities.size())));
+    if (i % 8 >= 5) {
+      entities.pop_back();
+      if (i % 8 == 7) entities.insert(entities.end(), 3, copy_at(20 + 3 * i));
+    } else if (i % 8 == 4) {
+      edited.edit();
+    } else {
+      entities[place] = entities[place].transformed(translate({0, 0.01 * i, 0.1}));
+    }
+    const PreparedScene next = prepare(edited.scene, prepared);
+    const PreparedScene anew = prepare(edited.scene);
+    REQUIRE(same_scene(next.data().compiled(), anew.data().compiled()));
+    REQUIRE(same_materials(next.data().material_table(), anew.data().material_table()));
+    REQUIRE(same_rays(edited, next.data(), anew.data()));
+    with_instances += next.data().has_instances() ? 1 : 0;
+    kept += has_kept(next.data(), prepared.data()) ? 1 : 0;
+    prepared = next;
+  }
+  CHECK(with_instances > 10);
+  CHECK(with_instances < 40);
+  CHECK(kept > 10);
+}
+
+TEST_CASE("a scene of thousands is prepared from an earlier one while its parts wander") {
+  Scene scene;
+  scene.settings = {.width = 16, .height = 12};
+  scene.camera = {.position = {40, 60, -60}, .pointing = {40, 0, 40}};
+  scene.lights = {PointLight{.origin = {0, 100, 0}}};
+  const auto part = [](int i, double height) {
+    const Vec3 at(2.0 * (i % 40), height, 2.0 * (i / 40));
+    if (i % 3 == 0) return Entity(Sphere{.center = at});
+    return Box{.corner_a = at, .corner_b = at + Vec3(2, 1, 2)} - Entity(Sphere{.center = at});
+  };
+  for (int i = 0; i < 1600; ++i) scene.entities.push_back(part(i, 0));
+  EditedScene rays(1, 0);
+  PreparedScene prepared = prepare(scene);
+  int kept = 0;
+  for (int turn = 1; turn <= 20; ++turn) {
+    CAPTURE(turn);
+    for (int i = turn % 7; i < 1600; i += 23 + turn)
+      scene.entities[static_cast<std::size_t>(i)] = part(i, turn % 4 == 0 ? 0 : 0.1 * turn);
+    if (turn % 6 == 5) scene.entities.erase(scene.entities.begin() + turn);
+    if (turn == 10) scene.entities.emplace_back(Sphere{.center = {1e5, 0, 0}});
+    const PreparedScene next = prepare(scene, prepared);
+    const PreparedScene anew = prepare(scene);
+    REQUIRE(same_scene(next.data().compiled(), anew.data().compiled()));
+    REQUIRE(same_rays(rays, next.data(), anew.data()));
+    REQUIRE(same_pictures(next, anew));
+    kept += has_kept(next.data(), prepared.data()) ? 1 : 0;
+    prepared = next;
+  }
+  CHECK(kept > 10);
 }

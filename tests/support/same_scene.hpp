@@ -50,10 +50,9 @@ inline bool same_object(const core::SceneObject& a, const core::SceneObject& b) 
 }
 
 inline bool same_instance(const core::Instance& a, const core::Instance& b) {
-  const bool same_map =
-      a.to_world == nullptr || b.to_world == nullptr
-          ? a.to_world == b.to_world
-          : a.to_world->product.rounded() == b.to_world->product.rounded();
+  const bool same_map = a.to_world == nullptr || b.to_world == nullptr
+                            ? a.to_world == b.to_world
+                            : a.to_world->product.rounded() == b.to_world->product.rounded();
   return same_map && a.prototype == b.prototype && a.entity_id == b.entity_id &&
          a.part_id == b.part_id && a.user == b.user && a.id_is_of_all == b.id_is_of_all;
 }
@@ -61,8 +60,11 @@ inline bool same_instance(const core::Instance& a, const core::Instance& b) {
 inline bool same_materials(const core::MaterialTable& a, const core::MaterialTable& b) {
   // Each scene makes the default material for itself.
   const auto same_one = [](const SharedMaterial& one, const SharedMaterial& other) {
-    const bool are_plain = one->color == Material{}.color && other->color == Material{}.color;
-    return &*one == &*other || are_plain;
+    const auto is_plain = [](const SharedMaterial& material) {
+      const auto* const color = std::get_if<Color>(&material->color);
+      return color != nullptr && *color == std::get<Color>(Material{}.color);
+    };
+    return &*one == &*other || (is_plain(one) && is_plain(other));
   };
   return std::ranges::equal(a.list, b.list, same_one) && a.default_material == b.default_material &&
          a.of_leaves == b.of_leaves && a.of_prototypes == b.of_prototypes;

@@ -162,9 +162,8 @@ CompiledScene Compiler::compile() {
     make_faces();
   }
   // Where something counts once that is there twice, what is kept depends on what goes.
-  const bool is_unlisted =
-      std::any_of(result_.leaves.begin(), result_.leaves.end(),
-                  [](const Leaf& leaf) { return leaf.unlisted != nullptr; });
+  const bool is_unlisted = std::any_of(result_.leaves.begin(), result_.leaves.end(),
+                                       [](const Leaf& leaf) { return leaf.unlisted != nullptr; });
   if (!are_removed && flat_.objects.size() == object_count && !is_unlisted)
     result_.entity_ends = std::move(flat_.entity_ends);
   if (result_.entity_ends.empty()) result_.surfaces = {};
@@ -244,44 +243,50 @@ void Compiler::make_leaves() {
   result_.leaves.clear();
   result_.leaves.resize(count);
   materials_.of_leaves.resize(count);
+  result_.entity_ids.resize(count);
   store.shapes.clear();
   store.shapes.resize(count);
   store.exact_shapes.clear();
   store.exact_shapes.resize(is_exact ? count : 0);
   std::atomic<std::uint64_t> shape_bytes = 0;
-  for_ranges(count, items_for_a_thread / 4, workers_,
-             [&](std::size_t begin, std::size_t end) {
-               std::uint64_t bytes = 0;
-               for (std::size_t i = begin; i < end; ++i) {
-                 const LeafSource& source = flat_.leaves[i];
-                 Leaf& leaf = result_.leaves[i];
-                 store.shapes[i] = make_shape(*source.primitive);
-                 leaf.shape = store.shapes[i].get();
-                 if (is_exact) {
-                   store.exact_shapes[i] = make_exact_shape(*source.primitive);
-                   leaf.exact = store.exact_shapes[i].get();
-                 }
-                 leaf.placement = &store.placements[source.placement];
-                 leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
-                 materials_.of_leaves[i] = source.material;
-                 leaf.entity_id = source.entity_id;
-                 leaf.part_id = source.part_id;
-                 leaf.user = source.user;
-                 leaf.complemented = source.complemented;
-                 leaf.has_materials = source.has_materials;
-                 leaf.takes_entity_id = source.takes_entity_id;
-                 leaf.takes_part_id = source.takes_part_id;
-                 leaf.takes_user = source.takes_user;
-                 const FacetAttributes* const facets = leaf.shape->facet_attributes();
-                 leaf.has_normals = facets != nullptr && facets->has_normals();
-                 const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
-                 leaf.family = is_plain ? leaf.shape->family() : nullptr;
-                 leaf.face_count = leaf.shape->listed_face_count();
-                 bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
-               }
-               shape_bytes += bytes;
-             });
+  for_ranges(count, items_for_a_thread / 4, workers_, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t bytes = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const LeafSource& source = flat_.leaves[i];
+      Leaf& leaf = result_.leaves[i];
+      store.shapes[i] = make_shape(*source.primitive);
+      leaf.shape = store.shapes[i].get();
+      if (is_exact) {
+        store.exact_shapes[i] = make_exact_shape(*source.primitive);
+        leaf.exact = store.exact_shapes[i].get();
+      }
+      leaf.placement = &store.placements[source.placement];
+      leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
+      materials_.of_leaves[i] = source.material;
+      leaf.entity_id = source.entity_id;
+      leaf.part_id = source.part_id;
+      leaf.user = source.user;
+      leaf.complemented = source.complemented;
+      leaf.has_materials = source.has_materials;
+      leaf.is_mesh = source.is_mesh;
+      result_.entity_ids[i] = source.entity_id;
+      leaf.takes_entity_id = source.takes_entity_id;
+      leaf.takes_part_id = source.takes_part_id;
+      leaf.takes_user = source.takes_user;
+      const FacetAttributes* const facets = leaf.shape->facet_attributes();
+      leaf.has_normals = facets != nullptr && facets->has_normals();
+      const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
+      leaf.family = is_plain ? leaf.shape->family() : nullptr;
+      leaf.face_count = leaf.shape->listed_face_count();
+      bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
+    }
+    shape_bytes += bytes;
+  });
   store.shape_bytes = shape_bytes;
+  result_.meshes.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (flat_.leaves[i].is_mesh) result_.meshes.push_back(i);
+  }
 }
 
 void Compiler::make_faces() {
@@ -309,7 +314,7 @@ void Compiler::make_faces() {
   }
   result_.surfaces =
       number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, workers_);
-  list_shared_faces(result_.leaves, result_.face_surfaces);
+  for (Leaf& leaf : result_.leaves) list_shared_faces(leaf, result_.face_surfaces);
 }
 
 void Compiler::finish_programs() {
@@ -381,10 +386,8 @@ Bounds Compiler::bounds_of(const SceneObject& object) const {
 
 }  // namespace
 
-void list_shared_faces(std::span<Leaf> leaves, std::span<const FaceSurface> faces) {
-  for (Leaf& leaf : leaves) {
-    if (leaf.face_count > Leaf::few_faces) leaf.shared_faces = shared_faces_of(leaf, faces);
-  }
+void list_shared_faces(Leaf& leaf, std::span<const FaceSurface> faces) {
+  if (leaf.face_count > Leaf::few_faces) leaf.shared_faces = shared_faces_of(leaf, faces);
 }
 
 void finish_numbers(CompiledScene& scene) {
@@ -413,11 +416,12 @@ void finish_numbers(CompiledScene& scene) {
 }
 
 CompiledScene compile_some(std::span<const Entity> entities, std::span<const std::uint32_t> places,
-                           Instancing instancing, std::span<const Prototype> earlier,
-                           Precision precision, const Workers& workers,
-                           const PrimitiveLimit& limit) {
+                           Instancing instancing, const Instancing::Count& count,
+                           std::span<const Prototype> earlier, Precision precision,
+                           const Workers& workers, const PrimitiveLimit& limit) {
   std::vector<const EntityNode*> shared_nodes = instancing.shared_nodes();
-  FlatScene flat = flatten(entities, places, std::move(instancing), precision, workers, limit);
+  FlatScene flat =
+      flatten(entities, places, std::move(instancing), count, precision, workers, limit);
   const bool refers_to_entities = precision == Precision::exact || !flat.instances.empty();
   CompiledScene result = Compiler(std::move(flat), earlier, precision, workers).compile();
   result.shared_nodes = std::move(shared_nodes);
@@ -432,7 +436,10 @@ CompiledScene compile(std::span<const Entity> entities, Precision precision, con
                       const PrimitiveLimit& limit) {
   std::vector<std::uint32_t> places(entities.size());
   std::iota(places.begin(), places.end(), 0u);
-  return compile_some(entities, places, Instancing(entities), {}, precision, workers, limit);
+  Instancing instancing(entities);
+  const Instancing::Count count = instancing.count(entities, PrimitiveLimit::max_numbered);
+  return compile_some(entities, places, std::move(instancing), count, {}, precision, workers,
+                      limit);
 }
 
 }  // namespace crt::core

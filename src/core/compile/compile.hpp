@@ -99,6 +99,8 @@ struct CompiledScene {
   std::vector<FaceSurface> face_surfaces;
   std::vector<SceneObject> objects;
   std::vector<const CsgProgram*> programs;
+  std::vector<std::uint32_t> entity_ids;  ///< of leaves; ray queries need nothing else of them
+  std::vector<std::uint32_t> meshes;      ///< the numbers of leaves that are meshes
   std::shared_ptr<const MaterialTable> materials;
   std::vector<Instance> instances;
   std::vector<Prototype> prototypes;
@@ -106,10 +108,10 @@ struct CompiledScene {
   double farthest = 0;                        ///< of a prototype: likewise
   Precision precision = Precision::standard;  ///< of a prototype: likewise
   // These serve to keep parts of it for a scene that was edited (recompile.hpp).
-  Instancing::Count count;                    ///< of what is compiled
-  std::uint64_t expanded_primitives = 0;      ///< of these, in copies that touch others
-  std::vector<EntityEnds> entity_ends;        ///< empty if none can be kept
-  std::vector<HashedSurface> surfaces;        ///< of all faces, sorted by their hashes
+  Instancing::Count count;                      ///< of what is compiled
+  std::uint64_t expanded_primitives = 0;        ///< of these, in copies that touch others
+  std::vector<EntityEnds> entity_ends;          ///< empty if none can be kept
+  std::vector<HashedSurface> surfaces;          ///< of all faces, sorted by their hashes
   std::vector<const EntityNode*> shared_nodes;  ///< what is instanced, sorted
 
   /// Returns the leaves of an object, and of an instance those of its prototype.
@@ -159,8 +161,7 @@ inline std::uint32_t MaterialTable::of(const CompiledScene& scene, const RayHit&
   const CompiledScene& prototype = scene.prototype_of(object);
   const std::uint32_t leaf = hit.leaf - object.first_leaf;
   return of_prototypes[scene.instances[object.instance].prototype] +
-         prototype.materials->of_leaves[leaf] +
-         prototype.leaves[leaf].material_place(hit.face);
+         prototype.materials->of_leaves[leaf] + prototype.leaves[leaf].material_place(hit.face);
 }
 
 /// Compiles entities. Unions at the top become objects of their own where their parts are disjoint.
@@ -171,14 +172,15 @@ CompiledScene compile(std::span<const Entity> entities, Precision precision = Pr
                       const Workers& workers = {}, const PrimitiveLimit& limit = {});
 
 /// Compiles those of a scene's entities that have these places, in ascending order, as if there
-/// were no others. `instancing` is that of all. Prototypes that `earlier` has are taken from there.
+/// were no others. `instancing` and `count` are those of all. Prototypes that `earlier` has are
+/// taken from there.
 CompiledScene compile_some(std::span<const Entity> entities, std::span<const std::uint32_t> places,
-                           Instancing instancing, std::span<const Prototype> earlier,
-                           Precision precision, const Workers& workers,
-                           const PrimitiveLimit& limit);
+                           Instancing instancing, const Instancing::Count& count,
+                           std::span<const Prototype> earlier, Precision precision,
+                           const Workers& workers, const PrimitiveLimit& limit);
 
-/// Lists the faces of leaves of many that lie on surfaces of leaves before them.
-void list_shared_faces(std::span<Leaf> leaves, std::span<const FaceSurface> faces);
+/// Lists the faces of a leaf that lie on surfaces of leaves before it, if it has many faces.
+void list_shared_faces(Leaf& leaf, std::span<const FaceSurface> faces);
 
 /// Gives numbers to the leaves of instances, and notes which CSG objects share surfaces with
 /// objects before them. Throws Error (limit) if there are too many leaves.

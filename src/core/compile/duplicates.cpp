@@ -173,7 +173,7 @@ void Duplicates::choose() {
     const auto* const first = looks.data() + material;
     const auto* const end = first + leaves_[leaf].material_count();
     return std::all_of(first, end, [&](std::uint32_t look) { return look == opaque; }) ? opaque
-                                                                                        : material;
+                                                                                       : material;
   };
   std::map<std::vector<std::uint32_t>, bool> seen;
   std::erase_if(scene_.objects, [&](const SceneObject& object) {

@@ -27,7 +27,8 @@ class Flattening {
   Flattening(Precision precision, const Workers& workers)
       : exact_(precision == Precision::exact), workers_(workers) {}
   FlatScene flatten(std::span<const Entity> entities, std::span<const std::uint32_t> places,
-                    Instancing instancing, const PrimitiveLimit& limit);
+                    Instancing instancing, const Instancing::Count& count,
+                    const PrimitiveLimit& limit);
   FlatScene flatten(const PrototypeSource& prototype);
 
  private:
@@ -83,9 +84,9 @@ FlatScene Flattening::take_result() {
 
 FlatScene Flattening::flatten(std::span<const Entity> entities,
                               std::span<const std::uint32_t> places, Instancing instancing,
-                              const PrimitiveLimit& limit) {
+                              const Instancing::Count& count, const PrimitiveLimit& limit) {
   instancing_ = std::move(instancing);
-  count_ = instancing_.count(entities, PrimitiveLimit::max_numbered);
+  count_ = count;
   limit.check(count_);
   std::uint64_t leaves = 0;
   for (const std::uint32_t place : places) leaves += entities[place].node().leaf_count;
@@ -283,6 +284,7 @@ void Flattening::add_leaf(const Part& part, bool complemented) {
        .user = part.user.value_or(0),
        .complemented = complemented,
        .has_materials = has_materials,
+       .is_mesh = std::holds_alternative<Mesh>(primitive),
        .takes_entity_id = !part.id_is_final,
        .takes_part_id = !part.has_part_id,
        .takes_user = !part.user});
@@ -315,9 +317,10 @@ const SharedMaterial* Flattening::material_of(const Part& part, const Primitive&
 }  // namespace
 
 FlatScene flatten(std::span<const Entity> entities, std::span<const std::uint32_t> places,
-                  Instancing instancing, Precision precision, const Workers& workers,
-                  const PrimitiveLimit& limit) {
-  return Flattening(precision, workers).flatten(entities, places, std::move(instancing), limit);
+                  Instancing instancing, const Instancing::Count& count, Precision precision,
+                  const Workers& workers, const PrimitiveLimit& limit) {
+  return Flattening(precision, workers)
+      .flatten(entities, places, std::move(instancing), count, limit);
 }
 
 FlatScene flatten(const PrototypeSource& prototype, Precision precision, const Workers& workers) {

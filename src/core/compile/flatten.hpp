@@ -21,7 +21,8 @@ struct LeafSource {
   std::uint32_t part_id = 0;
   std::uint64_t user = 0;
   bool complemented = false;
-  bool has_materials = false;    ///< of facets, which come next
+  bool has_materials = false;  ///< of facets, which come next
+  bool is_mesh = false;
   bool takes_entity_id = false;  ///< as in Leaf
   bool takes_part_id = false;
   bool takes_user = false;
@@ -54,11 +55,11 @@ struct FlatScene {
 inline constexpr std::uint32_t all_children = 0xffffffffu;
 
 /// Walks through those entities that have these places in a scene, without recursion, however deep
-/// they are. The entities must outlive the placements. `instancing` is that of all. Throws Error
-/// (limit) if the scene has too many primitives.
+/// they are. The entities must outlive the placements. `instancing` and `count` are those of all.
+/// Throws Error (limit) if the scene has too many primitives.
 FlatScene flatten(std::span<const Entity> entities, std::span<const std::uint32_t> places,
-                  Instancing instancing, Precision precision, const Workers& workers,
-                  const PrimitiveLimit& limit);
+                  Instancing instancing, const Instancing::Count& count, Precision precision,
+                  const Workers& workers, const PrimitiveLimit& limit);
 /// Makes one object of a prototype, in its own space.
 FlatScene flatten(const PrototypeSource& prototype, Precision precision, const Workers& workers);
 

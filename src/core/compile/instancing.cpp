@@ -14,6 +14,16 @@ constexpr std::uint64_t fewest_uses = 16;
 /// So are copies that have fewer primitives all together.
 constexpr std::uint64_t fewest_primitives = std::uint64_t{1} << 15;
 
+/// Counts an entity of several primitives. There may be very many of more than a number holds.
+std::uint64_t in_several(const EntityNode& entity) {
+  return entity.primitive_count < 2 ? 0 : std::min(entity.primitive_count, fewest_primitives);
+}
+
+std::uint64_t counted_primitives(const EntityNode& entity) {
+  constexpr std::uint64_t too_many = std::uint64_t{1} << 26;
+  return std::min(entity.primitive_count, too_many);
+}
+
 const EntityNode& without_wrapper(const EntityNode& node) {
   const auto* const wrapper = std::get_if<EntityWrapper>(&node.content);
   return wrapper == nullptr ? node : *wrapper->child;
@@ -33,8 +43,7 @@ bool repeats(const CsgOperation& operation, std::size_t part) {
 
 Instancing::Instancing(std::span<const Entity> entities) {
   std::uint64_t primitives = 0;
-  for (const Entity& entity : entities)
-    primitives += std::min(entity.node().primitive_count, fewest_primitives);
+  for (const Entity& entity : entities) primitives += in_several(entity.node());
   if (primitives < fewest_primitives) return;
   std::vector<const EntityNode*> open;
   const auto use = [&](const EntityNode& wrapped) {
@@ -61,6 +70,20 @@ Instancing::Instancing(std::span<const Entity> entities) {
   });
 }
 
+void Instancing::add(const EntityNode& entity, Count& count) {
+  count.primitives += counted_primitives(entity);
+  count.in_several += in_several(entity);
+}
+
+void Instancing::remove(const EntityNode& entity, Count& count) {
+  count.primitives -= counted_primitives(entity);
+  count.in_several -= in_several(entity);
+}
+
+bool Instancing::may_share(const Count& count) {
+  return count.in_several >= fewest_primitives;
+}
+
 std::vector<const EntityNode*> Instancing::shared_nodes() const {
   std::vector<const EntityNode*> nodes;
   nodes.reserve(uses_.size());
@@ -74,6 +97,7 @@ Instancing::Count Instancing::count(std::span<const Entity> entities, std::uint6
   std::unordered_set<const EntityNode*> compiled;
   std::vector<const EntityNode*> open;
   for (const Entity& entity : entities) {
+    result.in_several += in_several(entity.node());
     open.push_back(&entity.node());
     while (!open.empty() && result.primitives <= most && result.instances <= most) {
       const EntityNode& node = without_wrapper(*open.back());

@@ -17,8 +17,8 @@ bool has_lower_hash(const HashedSurface& a, const HashedSurface& b) {
   return a.hash < b.hash;
 }
 
-/// Puts the numbers of surfaces that are those of a source into those of the merged scene. A surface
-/// has the number of the first face on it that is there.
+/// Puts the numbers of surfaces that are those of a source into those of the merged scene. A
+/// surface has the number of the first face on it that is there.
 void renumber(const SurfaceSource& source, std::span<FaceSurface> faces) {
   std::unordered_map<std::uint32_t, std::uint32_t> of_left_out;
   for (const std::uint32_t face : source.new_faces) {
@@ -64,8 +64,8 @@ class Merging {
   /// Returns those kept, and those left out, that have a hash.
   Surfaces of_hash(std::uint32_t hash) const {
     const std::vector<HashedSurface>& surfaces = kept_.scene.surfaces;
-    const auto [begin, end] = std::equal_range(surfaces.begin(), surfaces.end(),
-                                               HashedSurface{hash, 0}, has_lower_hash);
+    const auto [begin, end] =
+        std::equal_range(surfaces.begin(), surfaces.end(), HashedSurface{hash, 0}, has_lower_hash);
     return {begin, end};
   }
 
@@ -108,8 +108,7 @@ class Merging {
   /// surfaces then.
   bool may_have_equal_leaves() {
     std::vector<std::uint32_t> hashes(added_.new_faces.size());
-    for (const HashedSurface& surface : added_.scene.surfaces)
-      hashes[surface.face] = surface.hash;
+    for (const HashedSurface& surface : added_.scene.surfaces) hashes[surface.face] = surface.hash;
     return std::any_of(
         added_.scene.leaves.begin(), added_.scene.leaves.end(), [&](const Leaf& leaf) {
           const auto meets = std::span(meets_kept_).subspan(leaf.first_face, leaf.face_count);

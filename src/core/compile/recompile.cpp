@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/compile/merged_surfaces.hpp"
 #include "core/compile/material_numbering.hpp"
+#include "core/compile/merged_surfaces.hpp"
 #include "core/tasks/parallel.hpp"
 
 namespace crt::core {
@@ -59,8 +59,9 @@ class Recompiler {
   void take_stores();
   void reserve();
   void take_entity(Source& source, std::size_t entity, std::uint32_t place);
-  void take_leaves(Source& source, const EntityEnds& begin, const EntityEnds& end,
-                   std::uint32_t place);
+  /// Returns by how much the numbers of faces are more than they were, modulo 2^32.
+  std::uint32_t take_leaves(Source& source, const EntityEnds& begin, const EntityEnds& end,
+                            std::uint32_t place);
   void take_instances(Source& source, const EntityEnds& begin, const EntityEnds& end,
                       std::uint32_t place);
   std::uint32_t material_number(Source& source, const Leaf& leaf, std::uint32_t number);
@@ -73,6 +74,7 @@ class Recompiler {
   Source added_;
   MaterialNumbering numbering_;
   MaterialTable materials_;
+  std::vector<std::uint32_t> of_many_faces_;  ///< leaves
   std::map<std::pair<const EntityNode*, const Material*>, std::uint32_t> prototype_numbers_;
   RecompiledScene result_;
 };
@@ -92,11 +94,13 @@ bool Recompiler::run() {
   }
   take_materials();
   workers_.poll();
-  if (!merge_surfaces({earlier_.scene, earlier_.new_faces}, {added_.scene, added_.new_faces}, scene))
+  if (!merge_surfaces({earlier_.scene, earlier_.new_faces}, {added_.scene, added_.new_faces},
+                      scene))
     return false;
   workers_.poll();
   if (has_equal_instances()) return false;
-  list_shared_faces(scene.leaves, scene.face_surfaces);
+  for (const std::uint32_t leaf : of_many_faces_)
+    list_shared_faces(scene.leaves[leaf], scene.face_surfaces);
   finish_numbers(scene);
   return true;
 }
@@ -125,6 +129,7 @@ void Recompiler::reserve() {
     list.reserve((earlier_.scene.*member).size() + (added_.scene.*member).size());
   };
   reserve_both(scene.leaves, &CompiledScene::leaves);
+  reserve_both(scene.entity_ids, &CompiledScene::leaves);
   reserve_both(scene.face_surfaces, &CompiledScene::face_surfaces);
   reserve_both(scene.objects, &CompiledScene::objects);
   reserve_both(result_.earlier_objects, &CompiledScene::objects);
@@ -144,7 +149,10 @@ void Recompiler::take_entity(Source& source, std::size_t entity, std::uint32_t p
   const std::uint32_t leaf_shift = size(scene.leaves) - begin.leaf;
   const std::uint32_t program_shift = size(scene.programs) - begin.program;
   const std::uint32_t instance_shift = size(scene.instances) - begin.instance;
-  take_leaves(source, begin, end, place);
+  const std::uint32_t face_shift = take_leaves(source, begin, end, place);
+  if (&source == &earlier_ &&
+      (leaf_shift != 0 || face_shift != 0 || size(scene.objects) != begin.object))
+    result_.keeps_numbers = false;
   for (std::uint32_t i = begin.object; i < end.object; ++i) {
     SceneObject& object = scene.objects.emplace_back(source.scene.objects[i]);
     if (object.is_instance()) {
@@ -162,8 +170,8 @@ void Recompiler::take_entity(Source& source, std::size_t entity, std::uint32_t p
                                size(scene.instances), source.new_stores[end.store]});
 }
 
-void Recompiler::take_leaves(Source& source, const EntityEnds& begin, const EntityEnds& end,
-                             std::uint32_t place) {
+std::uint32_t Recompiler::take_leaves(Source& source, const EntityEnds& begin,
+                                      const EntityEnds& end, std::uint32_t place) {
   CompiledScene& scene = result_.scene;
   const std::uint32_t first_face = source.first_face(begin.leaf);
   const std::uint32_t end_face = source.first_face(end.leaf);
@@ -174,12 +182,17 @@ void Recompiler::take_leaves(Source& source, const EntityEnds& begin, const Enti
     leaf.first_face += face_shift;
     if (leaf.takes_entity_id) leaf.entity_id = place;
     if (leaf.takes_part_id) leaf.part_id = place;
+    const auto number = static_cast<std::uint32_t>(scene.leaves.size() - 1);
+    if (leaf.face_count > Leaf::few_faces) of_many_faces_.push_back(number);
+    if (leaf.is_mesh) scene.meshes.push_back(number);
+    scene.entity_ids.push_back(leaf.entity_id);
     materials_.of_leaves.push_back(material_number(source, leaf, source.materials.of_leaves[i]));
   }
   const auto faces = source.scene.face_surfaces.begin();
   scene.face_surfaces.insert(scene.face_surfaces.end(), faces + first_face, faces + end_face);
   for (std::uint32_t face = first_face; face < end_face; ++face)
     source.new_faces[face] = face + face_shift;
+  return face_shift;
 }
 
 void Recompiler::take_instances(Source& source, const EntityEnds& begin, const EntityEnds& end,
@@ -283,8 +296,10 @@ bool has_grown(const CompiledScene& earlier, std::span<const std::uint32_t> kept
 std::optional<RecompiledScene> recompile(const CompiledScene& earlier,
                                          const MaterialTable& earlier_materials,
                                          std::span<const Entity> entities,
-                                         std::span<const std::uint32_t> kept, Precision precision,
-                                         const Workers& workers, const PrimitiveLimit& limit) {
+                                         std::span<const std::uint32_t> kept,
+                                         std::span<const EntityNode* const> removed,
+                                         Precision precision, const Workers& workers,
+                                         const PrimitiveLimit& limit) {
   std::vector<std::uint32_t> places;
   for (std::uint32_t place = 0; place < kept.size(); ++place) {
     if (kept[place] == invalid_index) places.push_back(place);
@@ -292,9 +307,16 @@ std::optional<RecompiledScene> recompile(const CompiledScene& earlier,
   const bool can_be_kept = !earlier.entity_ends.empty() && earlier.expanded_primitives == 0 &&
                            2 * places.size() <= kept.size();
   if (!can_be_kept || has_grown(earlier, kept)) return std::nullopt;
-  Instancing instancing(entities);
-  if (instancing.shared_nodes() != earlier.shared_nodes) return std::nullopt;
-  const CompiledScene added = compile_some(entities, places, std::move(instancing),
+  Instancing instancing;
+  Instancing::Count count = earlier.count;
+  for (const EntityNode* const entity : removed) Instancing::remove(*entity, count);
+  for (const std::uint32_t place : places) Instancing::add(entities[place].node(), count);
+  if (!earlier.shared_nodes.empty() || Instancing::may_share(count)) {
+    instancing = Instancing(entities);
+    if (instancing.shared_nodes() != earlier.shared_nodes) return std::nullopt;
+    count = instancing.count(entities, PrimitiveLimit::max_numbered);
+  }
+  const CompiledScene added = compile_some(entities, places, std::move(instancing), count,
                                            earlier.prototypes, precision, workers, limit);
   if (added.entity_ends.size() != places.size()) return std::nullopt;
   Recompiler recompiler(earlier, earlier_materials, added, kept, workers);

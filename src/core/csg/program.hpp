@@ -73,6 +73,7 @@ struct Leaf {
   std::shared_ptr<UnlistedFaces> unlisted;  ///< none if all faces are listed
   bool has_normals = false;                 ///< its facets have normals for shading
   bool has_materials = false;  ///< its facets have materials of their own
+  bool is_mesh = false;
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface
   /// These say whether it has the ids of its entity, or a prototype's leaf those of each instance.

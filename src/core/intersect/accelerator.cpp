@@ -46,30 +46,11 @@ double margin_of(const Bounds& total) {
   return of_extent * largest_component(extents) + of_place * total.farthest();
 }
 
-std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Workers& workers) {
-  std::vector<std::uint32_t> enclosed(scene.leaves.size(), invalid_index);
-  const auto count = static_cast<std::uint32_t>(scene.objects.size());
-  for_ranges(count, items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const SceneObject& object = scene.objects[i];
-      if (object.is_instance()) continue;
-      const std::span<const Leaf> leaves = scene.leaves_of(object);
-      for (std::uint32_t k = 0; k < leaves.size(); ++k) {
-        const Leaf& leaf = leaves[k];
-        const bool holds = !object.is_csg() || scene.program_of(object).is_within(k, leaf);
-        if (holds && leaf.shape->is_convex())
-          enclosed[object.first_leaf + k] = static_cast<std::uint32_t>(i);
-      }
-    }
-  });
-  return enclosed;
-}
-
 }  // namespace
 
-Accelerator::Accelerator(CompiledScene compiled, const Accelerator* earlier,
-                         std::span<const std::uint32_t> earlier_objects, const Workers& workers)
-    : compiled_(std::move(compiled)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
+Accelerator::Accelerator(RecompiledScene recompiled, const Accelerator* earlier,
+                         const Workers& workers)
+    : compiled_(std::move(recompiled.scene)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
   Bounds total;
   std::vector<std::uint32_t> bounded;
   std::vector<std::uint32_t> unbounded;
@@ -88,8 +69,8 @@ Accelerator::Accelerator(CompiledScene compiled, const Accelerator* earlier,
   std::unique_ptr<const EarlierProxies> proxies;
   std::vector<std::uint32_t> order;
   if (earlier != nullptr) {
-    proxies = std::make_unique<const EarlierProxies>(earlier->proxies_for(earlier_objects));
-    order = order_of_earlier(*earlier, earlier_objects, bounded, total, workers);
+    proxies = std::make_unique<const EarlierProxies>(earlier->proxies_for(recompiled));
+    order = order_of_earlier(*earlier, recompiled.earlier_objects, bounded, total, workers);
   }
   const bool is_tree_kept = !order.empty();
   if (is_tree_kept) {
@@ -101,7 +82,7 @@ Accelerator::Accelerator(CompiledScene compiled, const Accelerator* earlier,
   bounded_ = BoundingProxies(compiled_, bounded, workers, of_earlier);
   unbounded_ = BoundingProxies(compiled_, unbounded, workers, of_earlier);
   keep_solids();
-  enclosed_ = enclosed_objects(compiled_, workers);
+  find_enclosed(earlier, recompiled.earlier_objects, workers);
   if (bounded.empty()) return;
   margin_ = margin_of(total);
   farthest_ = total.farthest();

@@ -9,6 +9,7 @@
 #include "core/accel/box_tree.hpp"
 #include "core/accel/flat_box_list.hpp"
 #include "core/compile/compile.hpp"
+#include "core/compile/recompile.hpp"
 #include "core/intersect/answers.hpp"
 #include "core/intersect/bounding_proxy.hpp"
 #include "core/intersect/crossing_order.hpp"
@@ -25,11 +26,9 @@ namespace crt::core {
 class Accelerator {
  public:
   explicit Accelerator(CompiledScene compiled, const Workers& workers = {})
-      : Accelerator(std::move(compiled), nullptr, {}, workers) {}
-  /// Makes it of a scene with objects from an earlier one, or from none: `earlier_objects` has the
-  /// number of each object there, or invalid_index.
-  Accelerator(CompiledScene compiled, const Accelerator* earlier,
-              std::span<const std::uint32_t> earlier_objects, const Workers& workers);
+      : Accelerator({std::move(compiled), {}}, nullptr, workers) {}
+  /// Makes it of a scene with objects from an earlier one, which may be null.
+  Accelerator(RecompiledScene recompiled, const Accelerator* earlier, const Workers& workers);
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
@@ -184,7 +183,10 @@ class Accelerator {
                                               std::span<const std::uint32_t> bounded,
                                               const Bounds& total, const Workers& workers) const;
   /// Returns the proxies for a scene of which objects are from this one.
-  EarlierProxies proxies_for(std::span<const std::uint32_t> objects) const;
+  EarlierProxies proxies_for(const RecompiledScene& scene) const;
+  /// Fills in what is enclosed, from an earlier scene where that has it.
+  void find_enclosed(const Accelerator* earlier, std::span<const std::uint32_t> earlier_objects,
+                     const Workers& workers);
   /// Gives what encloses objects to the store that these are in.
   void keep_solids();
   /// Builds the tree over the boxes of objects, of which an earlier one may have the first.

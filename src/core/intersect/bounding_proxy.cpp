@@ -93,6 +93,15 @@ BoundingProxy moved_proxy(const EarlierProxies& earlier, const CompiledScene& sc
                           std::uint32_t index) {
   const std::uint32_t before = earlier.objects[index];
   BoundingProxy proxy = *earlier.proxies[before];
+  if (earlier.keeps_numbers) {
+    if (proxy.leaf != nullptr)
+      proxy.leaf = scene.leaves.data() + (proxy.leaf - earlier.scene.leaves.data());
+    if (proxy.faces != nullptr) {
+      proxy.faces =
+          scene.face_surfaces.data() + (proxy.faces - earlier.scene.face_surfaces.data());
+    }
+    return proxy;
+  }
   proxy.object = index;
   if (scene.objects[index].is_instance()) return proxy;
   const std::uint32_t first_leaf = scene.objects[index].first_leaf;

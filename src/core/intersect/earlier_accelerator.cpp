@@ -4,6 +4,7 @@
 
 #include "core/accel/space_order.hpp"
 #include "core/intersect/accelerator.hpp"
+#include "core/tasks/parallel.hpp"
 
 namespace crt::core {
 
@@ -15,8 +16,8 @@ constexpr std::size_t share_beside = 4;
 
 }  // namespace
 
-EarlierProxies Accelerator::proxies_for(std::span<const std::uint32_t> objects) const {
-  EarlierProxies earlier{compiled_, objects, {}};
+EarlierProxies Accelerator::proxies_for(const RecompiledScene& scene) const {
+  EarlierProxies earlier{compiled_, scene.earlier_objects, scene.keeps_numbers, {}};
   earlier.proxies.resize(compiled_.objects.size());
   for (const BoundingProxies* proxies : {&bounded_, &unbounded_}) {
     for (const BoundingProxy& proxy : proxies->list) {
@@ -35,6 +36,33 @@ void Accelerator::keep_solids() {
                 std::make_move_iterator(made.end()));
     made.clear();
   }
+}
+
+void Accelerator::find_enclosed(const Accelerator* earlier,
+                                std::span<const std::uint32_t> earlier_objects,
+                                const Workers& workers) {
+  const CompiledScene& scene = compiled_;
+  enclosed_.assign(scene.leaves.size(), invalid_index);
+  const auto is_enclosed = [&](const SceneObject& object, std::uint32_t number, const Leaf& leaf) {
+    const bool holds = !object.is_csg() || scene.program_of(object).is_within(number, leaf);
+    return holds && leaf.shape->is_convex();
+  };
+  for_ranges(scene.objects.size(), items_for_a_thread, workers,
+             [&](std::size_t begin, std::size_t end) {
+               for (std::size_t i = begin; i < end; ++i) {
+                 const SceneObject& object = scene.objects[i];
+                 if (object.is_instance()) continue;
+                 const std::span<const Leaf> leaves = scene.leaves_of(object);
+                 const bool is_new = earlier == nullptr || earlier_objects[i] == invalid_index;
+                 const std::uint32_t* const before =
+                     is_new ? nullptr
+                            : &earlier->enclosed_[earlier->object(earlier_objects[i]).first_leaf];
+                 for (std::uint32_t k = 0; k < leaves.size(); ++k) {
+                   if (is_new ? is_enclosed(object, k, leaves[k]) : before[k] != invalid_index)
+                     enclosed_[object.first_leaf + k] = static_cast<std::uint32_t>(i);
+                 }
+               }
+             });
 }
 
 std::vector<std::uint32_t> Accelerator::order_of_earlier(

@@ -22,7 +22,6 @@ struct Geometry {
   Precision precision;
   bool has_csg;
   Accelerator accelerator;
-  std::vector<std::uint32_t> entity_ids;  ///< of leaves; ray queries need nothing else of them
   std::vector<std::shared_ptr<const MeshTriangles>> meshes;  ///< those with warnings, each once
 
   Geometry(CompiledScene compiled, Precision of_scene, const Workers& workers);
@@ -30,7 +29,7 @@ struct Geometry {
   Geometry(RecompiledScene recompiled, const Geometry& earlier, const Workers& workers);
 
  private:
-  void list_leaves();
+  void list_meshes();
 };
 
 }  // namespace crt::core

@@ -22,12 +22,19 @@ NodeList::NodeList(std::span<const Entity> entities, const NodeList& earlier)
   }
 }
 
-bool NodeList::is_of(std::span<const Entity> entities) const {
-  if (entities.size() != size_) return false;
-  for (std::size_t i = 0; i < size_; ++i) {
-    if (!is_at(i, entities[i])) return false;
+std::vector<const EntityNode*> NodeList::others_than(std::span<const std::uint32_t> places) const {
+  std::vector<const EntityNode*> others;
+  std::size_t next = 0;
+  const auto add_to = [&](std::size_t end) {
+    for (; next < end; ++next) others.push_back((*this)[next].get());
+  };
+  for (const std::uint32_t place : places) {
+    if (place == invalid_index) continue;
+    add_to(place);
+    ++next;
   }
-  return true;
+  add_to(size_);
+  return others;
 }
 
 std::vector<std::uint32_t> NodeList::places_of(std::span<const Entity> entities) const {

@@ -23,10 +23,11 @@ class NodeList {
   const EntityPointer& operator[](std::size_t i) const {
     return (*blocks_[i / block_size])[i % block_size];
   }
-  bool is_of(std::span<const Entity> entities) const;
   /// Returns for each entity of an edited scene its place in this list, or invalid_index if it is
   /// not there, or not in the order of the others.
   std::vector<std::uint32_t> places_of(std::span<const Entity> entities) const;
+  /// Returns the nodes that have none of these places, which ascend but for invalid_index.
+  std::vector<const EntityNode*> others_than(std::span<const std::uint32_t> places) const;
   /// Returns the bytes of memory that it takes.
   std::uint64_t bytes() const { return size_ * sizeof(EntityPointer); }
 

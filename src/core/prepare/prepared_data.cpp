@@ -133,7 +133,7 @@ PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
                         .max_size_error = start_rounding * accelerator_->largest_radius(),
                         .farthest = accelerator_->farthest()};
   }
-  entity_ids_ = entities_.geometry->entity_ids;
+  entity_ids_ = compiled_->entity_ids;
   for (const SharedMaterial& material : entities_.materials->list) {
     workers.poll();
     materials_.emplace_back(stand_in(material, options),
@@ -173,7 +173,7 @@ PreparedData::~PreparedData() = default;
 
 MemoryUse PreparedData::memory() const {
   MemoryUse use = accelerator_->memory();
-  use.primitives += entities_.nodes.bytes() + bytes_of(entities_.geometry->entity_ids);
+  use.primitives += entities_.nodes.bytes() + bytes_of(compiled_->entity_ids);
   use.materials = bytes_of(entities_.materials->list) + bytes_of(entities_.materials->of_leaves) +
                   bytes_of(materials_) + textures_.bytes() +
                   normals_.bytes() + layer_tables_.bytes() +

@@ -42,7 +42,8 @@ bool PreparedEntities::take(const Scene& scene, const PreparedEntities& earlier,
       return true;
     }
   }
-  auto recompiled = recompile(compiled, *earlier.materials, entities, places,
+  const std::vector<const EntityNode*> removed = earlier.nodes.others_than(places);
+  auto recompiled = recompile(compiled, *earlier.materials, entities, places, removed,
                               earlier.geometry->precision, workers, limit);
   if (!recompiled) return false;
   materials = recompiled->scene.materials;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 #include "core/compile/flatten.hpp"
@@ -57,8 +58,12 @@ std::shared_ptr<const MaterialTable> recoloured(const CompiledScene& scene,
   for (const std::uint32_t place : places) {
     if (!are_same_but_for_materials(*nodes[place], entities[place].node())) return nullptr;
   }
+  std::vector<Entity> others;
+  for (const std::uint32_t place : places) others.push_back(entities[place]);
+  std::vector<std::uint32_t> all(others.size());
+  std::iota(all.begin(), all.end(), 0u);
   const FlatScene flat =
-      flatten(entities, places, Instancing(), precision, workers, PrimitiveLimit());
+      flatten(others, all, Instancing(), {}, precision, workers, PrimitiveLimit());
 
   // Its leaves stand in the order of the scene's. Their materials get numbers after all others.
   const auto first = static_cast<std::uint32_t>(materials.list.size());
