@@ -15,8 +15,8 @@ namespace {
 
 using namespace crt;
 
-/// Parts are a plate with holes, of 7 primitives, or a sphere.
-enum class Part { plate, sphere };
+/// Parts are a plate with two holes or six, or a sphere.
+enum class Part { plate, large_plate, sphere };
 
 SharedMaterial some_material(int i) {
   static const std::vector<SharedMaterial> materials = [] {
@@ -27,10 +27,10 @@ SharedMaterial some_material(int i) {
   return materials[static_cast<std::size_t>(i) % materials.size()];
 }
 
-Entity plate() {
+Entity plate(int count) {
   Entity result = Box{.corner_a = {-1, -0.1, -1}, .corner_b = {1, 0.1, 1}};
   std::vector<Entity> holes;
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < count; ++i) {
     const double x = 0.6 * std::cos(i);
     const double z = 0.6 * std::sin(i);
     holes.emplace_back(Cylinder{.from = {x, -1, z}, .to = {x, 1, z}, .radius = 0.2});
@@ -44,7 +44,9 @@ Entity part_at(Part part, int i, int side, double height) {
   const double z = 3.0 * (i / side);
   if (part == Part::sphere)
     return Entity(Sphere{.center = {x, height, z}}).with_material(some_material(i));
-  return plate().transformed(translate({x, height, z})).with_material(some_material(i));
+  return plate(part == Part::plate ? 2 : 6)
+      .transformed(translate({x, height, z}))
+      .with_material(some_material(i));
 }
 
 Scene scene_of(Part part, int count) {
@@ -88,11 +90,8 @@ void recolour_one(benchmark::State& state, bool from_earlier) {
   const int side = static_cast<int>(std::sqrt(100000)) + 1;
   prepare_edited(state, std::move(scene), from_earlier, [&](Scene& edited, int turn) {
     const int i = turn * 7919 % 100000;
-    edited.entities[static_cast<std::size_t>(i)] =
-        part_at(Part::sphere, i, side, 0).with_material(some_material(i));
-    const auto* const same = &edited.entities[static_cast<std::size_t>(i)];
     const Sphere sphere{.center = {3.0 * (i % side), 0, 3.0 * (i / side)}};
-    edited.entities[static_cast<std::size_t>(same - edited.entities.data())] =
+    edited.entities[static_cast<std::size_t>(i)] =
         Entity(sphere).with_material(some_material(i + turn));
   });
 }
@@ -110,6 +109,9 @@ void replace_one(benchmark::State& state, bool from_earlier) {
 
 BENCHMARK_CAPTURE(move_some, plates_anew, Part::plate, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(move_some, plates, Part::plate, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(move_some, large_plates_anew, Part::large_plate, false)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(move_some, large_plates, Part::large_plate, true)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(move_some, spheres_anew, Part::sphere, false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(move_some, spheres, Part::sphere, true)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(recolour_one, anew, false)->Unit(benchmark::kMillisecond);

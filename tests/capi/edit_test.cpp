@@ -24,10 +24,17 @@ EntityHandle moved(crt_entity* entity, double y) {
 
 /// Returns a scene of entities, which remembers nothing.
 SceneHandle scene_of(const std::vector<EntityHandle>& entities) {
-  const SceneHandle scene = made<SceneHandle>(crt_scene_create);
+  SceneHandle scene = new_scene();
   for (const EntityHandle& entity : entities)
     REQUIRE(crt_scene_add_entity(scene.get(), entity.get()) == CRT_OK);
   return scene;
+}
+
+/// Returns a scene of so many boxes.
+SceneHandle scene_of(int count) {
+  std::vector<EntityHandle> entities;
+  for (int i = 0; i < count; ++i) entities.push_back(box(2.0 * i));
+  return scene_of(entities);
 }
 
 PreparedHandle prepare_from(crt_scene* scene, crt_prepared* previous) {
@@ -78,13 +85,13 @@ TEST_CASE("a scene that is prepared from an earlier one has the same hits, with 
 }
 
 TEST_CASE("preparing from an earlier scene is an option beside others") {
-  const SceneHandle scene = scene_of({box(0), box(2)});
+  const SceneHandle scene = scene_of(2);
   const PreparedHandle previous = prepare(scene.get());
   crt_prepare_options options;
   REQUIRE(crt_prepare_options_init(&options, sizeof options) == CRT_OK);
   CHECK(options.previous == nullptr);
   options.previous = previous.get();
-  const SceneHandle larger = scene_of({box(0), box(2), box(4)});
+  const SceneHandle larger = scene_of(3);
   crt_prepared* out = nullptr;
   options.max_primitives = 2;
   CHECK(crt_scene_prepare_with(larger.get(), &options, &out) == CRT_ERROR_LIMIT);

@@ -11,9 +11,9 @@
 
 namespace crt::core {
 
-/// A BoxTree is one of Embree's trees, or two after an edit: that of an earlier scene, some of whose
-/// boxes are left out, and one of the boxes that were added since. These have the numbers after all
-/// of the first.
+/// A BoxTree is one of Embree's trees, or two after an edit: that of an earlier scene, some of
+/// whose boxes are left out, and one of the boxes that were added since. These have the numbers
+/// after all of the first.
 class BoxTree {
  public:
   BoxTree() = default;

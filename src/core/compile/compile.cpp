@@ -155,16 +155,14 @@ CompiledScene Compiler::compile() {
   make_faces();
   const std::size_t object_count = flat_.objects.size();
   remove_equal_instances(flat_, workers_);
-  const bool are_removed =
-      remove_duplicates(flat_, result_.leaves, result_.face_surfaces, workers_);
-  if (are_removed) {
+  if (remove_duplicates(flat_, result_.leaves, result_.face_surfaces, workers_)) {
     make_leaves();
     make_faces();
   }
-  // Where something counts once that is there twice, what is kept depends on what goes.
+  // Where an object counts once that is there twice, what is kept depends on what goes.
   const bool is_unlisted = std::any_of(result_.leaves.begin(), result_.leaves.end(),
                                        [](const Leaf& leaf) { return leaf.unlisted != nullptr; });
-  if (!are_removed && flat_.objects.size() == object_count && !is_unlisted)
+  if (flat_.objects.size() == object_count && !is_unlisted)
     result_.entity_ends = std::move(flat_.entity_ends);
   if (result_.entity_ends.empty()) result_.surfaces = {};
   result_.count = flat_.count;

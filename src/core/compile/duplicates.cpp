@@ -243,6 +243,7 @@ std::uint32_t Duplicates::reduce(const CsgProgram& program, std::uint32_t first_
 
 void Duplicates::compact() {
   std::vector<CsgProgram> programs;
+  std::vector<std::uint32_t> kept_programs(scene_.programs.size() + 1, 0);  // before each
   for (SceneObject& object : scene_.objects) {
     if (!object.is_csg()) continue;
     CsgProgram program = std::move(scene_.programs[object.program]);
@@ -250,11 +251,15 @@ void Duplicates::compact() {
     object.first_leaf += static_cast<std::uint32_t>(
         std::find(keeps_leaf_.begin() + object.first_leaf, keeps_leaf_.end(), true) -
         (keeps_leaf_.begin() + object.first_leaf));
+    const std::uint32_t number = object.program;
     object.program = no_program;
-    if (program.leaf_count() == 1) continue;
-    object.program = static_cast<std::uint32_t>(programs.size());
-    programs.push_back(std::move(program));
+    if (program.leaf_count() > 1) {
+      object.program = static_cast<std::uint32_t>(programs.size());
+      programs.push_back(std::move(program));
+    }
+    kept_programs[number + 1] = static_cast<std::uint32_t>(programs.size());
   }
+  for (EntityEnds& ends : scene_.entity_ends) ends.program = kept_programs[ends.program];
   scene_.programs = std::move(programs);
   // Leaves move up.
   std::vector<std::uint32_t> places(leaves_.size(), 0);
@@ -263,6 +268,8 @@ void Duplicates::compact() {
     places[leaf] = count;
     if (keeps_leaf_[leaf]) scene_.leaves[count++] = scene_.leaves[leaf];
   }
+  for (EntityEnds& ends : scene_.entity_ends)
+    ends.leaf = ends.leaf < places.size() ? places[ends.leaf] : count;
   scene_.leaves.resize(count);
   scene_.programs_of_leaves.assign(count, no_program);
   for (SceneObject& object : scene_.objects) {

@@ -23,9 +23,9 @@ struct RecompiledScene {
 /// else is compiled as compile() would do it, and put where it belongs. So lists, numbers and
 /// surfaces are those that compile() gives, and only stores differ.
 ///
-/// Returns nothing where that does not pay, or where what is there depends on what is not: a thing
-/// is there twice, copies begin or cease to be worth sharing, or a height field has so many faces
-/// that only some are listed. Throws Error as compile() does.
+/// Returns nothing where that does not pay, or where what is there depends on what is not: an
+/// object is there twice, copies begin or cease to be worth sharing, or a height field has so many
+/// faces that only some are listed. Throws Error as compile() does.
 std::optional<RecompiledScene> recompile(const CompiledScene& earlier,
                                          const MaterialTable& earlier_materials,
                                          std::span<const Entity> entities,

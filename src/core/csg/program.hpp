@@ -57,7 +57,7 @@ struct UnlistedFaces {
 /// A Leaf is a primitive in its place. The scene owns what it points to.
 struct Leaf {
   const Shape* shape = nullptr;
-  const ExactShape* exact = nullptr;  ///< the shape in the exact tier; none in the standard one
+  const ExactShape* exact = nullptr;     ///< the shape in the exact tier; none in the standard one
   const Placement* placement = nullptr;  ///< shared by leaves that are placed alike
   const void* family =
       nullptr;    ///< of its shape, which is neither complemented nor moved, nor in instances
@@ -72,7 +72,7 @@ struct Leaf {
   std::shared_ptr<const SharedFaces> shared_faces;
   std::shared_ptr<UnlistedFaces> unlisted;  ///< none if all faces are listed
   bool has_normals = false;                 ///< its facets have normals for shading
-  bool has_materials = false;  ///< its facets have materials of their own
+  bool has_materials = false;               ///< its facets have materials of their own
   bool is_mesh = false;
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface

@@ -50,7 +50,8 @@ double margin_of(const Bounds& total) {
 
 Accelerator::Accelerator(RecompiledScene recompiled, const Accelerator* earlier,
                          const Workers& workers)
-    : compiled_(std::move(recompiled.scene)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
+    : compiled_(std::move(recompiled.scene)),
+      objects_share_surfaces_(any_surface_is_shared(compiled_)) {
   Bounds total;
   std::vector<std::uint32_t> bounded;
   std::vector<std::uint32_t> unbounded;

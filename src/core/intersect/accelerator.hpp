@@ -204,9 +204,9 @@ class Accelerator {
   double margin_ = 0;
   double farthest_ = std::numeric_limits<double>::infinity();
   double largest_radius_ = 0;
-  std::vector<std::uint32_t> isolated_;     ///< by object: see isolated_objects()
-  BoxTree tree_;                            ///< empty if nothing is bounded
-  FlatBoxList flat_box_list_;               ///< takes its place if there are few boxes
+  std::vector<std::uint32_t> isolated_;  ///< by object: see isolated_objects()
+  BoxTree tree_;                         ///< empty if nothing is bounded
+  FlatBoxList flat_box_list_;            ///< takes its place if there are few boxes
   bool objects_share_surfaces_ =
       false;  ///< whether some surface has faces of several objects on it
   PassingRays kinds_that_pass_ = passing_none;

@@ -97,8 +97,7 @@ BoundingProxy moved_proxy(const EarlierProxies& earlier, const CompiledScene& sc
     if (proxy.leaf != nullptr)
       proxy.leaf = scene.leaves.data() + (proxy.leaf - earlier.scene.leaves.data());
     if (proxy.faces != nullptr) {
-      proxy.faces =
-          scene.face_surfaces.data() + (proxy.faces - earlier.scene.face_surfaces.data());
+      proxy.faces = scene.face_surfaces.data() + (proxy.faces - earlier.scene.face_surfaces.data());
     }
     return proxy;
   }

@@ -35,7 +35,7 @@ struct BoundingProxy {
 /// EarlierProxies are those of a scene that another one has objects from.
 struct EarlierProxies {
   const CompiledScene& scene;
-  std::span<const std::uint32_t> objects;  ///< by object of the other scene its number here
+  std::span<const std::uint32_t> objects;     ///< by object of the other scene its number here
   bool keeps_numbers;                         ///< of objects, leaves and faces in the other scene
   std::vector<const BoundingProxy*> proxies;  ///< by object here
 };

@@ -87,8 +87,8 @@ std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
     const std::span<const Leaf> leaves = scene.leaves_of(object);
     if (!object.solid || std::none_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
           const auto number = static_cast<std::size_t>(&leaf - scene.leaves.data());
-          const auto of_leaf = materials.subspan(scene.materials->of_leaves[number],
-                                                 leaf.material_count());
+          const auto of_leaf =
+              materials.subspan(scene.materials->of_leaves[number], leaf.material_count());
           return std::any_of(of_leaf.begin(), of_leaf.end(),
                              [](const auto& material) { return lets_light_in(*material); });
         })) {

@@ -35,8 +35,7 @@ std::unique_ptr<const ChosenLights> ChosenLights::of(const CompiledScene& scene,
   if (any_emits) {
     for (const SceneObject& object : scene.objects) {
       if (object.is_csg() || object.is_instance()) continue;
-      result->add_surface(scene, object.first_leaf, table.of_leaves[object.first_leaf],
-                          materials);
+      result->add_surface(scene, object.first_leaf, table.of_leaves[object.first_leaf], materials);
     }
   }
   if (chosen.empty()) return nullptr;

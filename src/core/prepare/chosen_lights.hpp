@@ -19,8 +19,8 @@ class ChosenLights {
  public:
   static constexpr std::size_t max_asked = 16;
 
-  /// Returns those of a scene, or null if there are none. `table` is that of its materials. `any_emits` says whether a material gives
-  /// light off.
+  /// Returns those of a scene, or null if there are none. `table` is that of its materials.
+  /// `any_emits` says whether a material gives light off.
   static std::unique_ptr<const ChosenLights> of(const CompiledScene& scene,
                                                 const MaterialTable& table,
                                                 std::span<const PreparedMaterial> materials,

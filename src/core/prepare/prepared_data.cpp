@@ -144,8 +144,8 @@ PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
   background_ =
       std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
   scene_.lights = lights_of(scene, background_->sky(), emits);
-  chosen_lights_ = ChosenLights::of(*compiled_, *entities_.materials, materials_, emits,
-                                     scene_.lights);
+  chosen_lights_ =
+      ChosenLights::of(*compiled_, *entities_.materials, materials_, emits, scene_.lights);
   opacity_ = opacity_of(*compiled_, *entities_.materials, materials_);
   if (std::any_of(scene_.lights.begin(), scene_.lights.end(), is_environment))
     environment_ = std::make_unique<Environment>(*background_);
@@ -175,8 +175,8 @@ MemoryUse PreparedData::memory() const {
   MemoryUse use = accelerator_->memory();
   use.primitives += entities_.nodes.bytes() + bytes_of(compiled_->entity_ids);
   use.materials = bytes_of(entities_.materials->list) + bytes_of(entities_.materials->of_leaves) +
-                  bytes_of(materials_) + textures_.bytes() +
-                  normals_.bytes() + layer_tables_.bytes() +
+                  bytes_of(materials_) + textures_.bytes() + normals_.bytes() +
+                  layer_tables_.bytes() +
                   (chosen_lights_ == nullptr ? 0 : chosen_lights_->bytes()) +
                   (opacity_.of_materials.capacity() + opacity_.of_objects.capacity()) / CHAR_BIT;
   return use;

@@ -47,8 +47,7 @@ bool PreparedEntities::take(const Scene& scene, const PreparedEntities& earlier,
                               earlier.geometry->precision, workers, limit);
   if (!recompiled) return false;
   materials = recompiled->scene.materials;
-  geometry =
-      std::make_shared<const Geometry>(std::move(*recompiled), *earlier.geometry, workers);
+  geometry = std::make_shared<const Geometry>(std::move(*recompiled), *earlier.geometry, workers);
   return true;
 }
 
