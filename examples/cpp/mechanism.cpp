@@ -6,6 +6,7 @@
 #include <crt/crt.hpp>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -79,7 +80,7 @@ void run() {
     prepared = prepared ? prepare(scene, *prepared) : prepare(scene);
 
     const Ray ray{.origin = {0, head, 0.5}, .direction = {0, -1, 0}};  // down from the head
-    nearest = std::min(nearest, intersect(*prepared, ray).t);
+    if (const auto hit = intersect(*prepared, ray)) nearest = std::min(nearest, hit->t);
     if (step == steps / 8) render(*prepared).write("mechanism.png");
   }
   std::cout << std::fixed << std::setprecision(3) << "the piston comes within " << nearest
