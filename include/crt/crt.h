@@ -1164,11 +1164,11 @@ CRT_API crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_op
                                           crt_prepared** out);
 
 /**
- * Prepares as crt_scene_prepare() does, and takes over from what was prepared earlier, of this scene
- * or of any other, what is made of the same entities. These are entities that were added to both,
- * in the same order. What was moved (crt_entity_with_transform()), given another material, replaced,
- * added or removed is prepared for itself. All answers and pictures are those of crt_scene_prepare(),
- * to the bit, and so are the starts of hits. NULL takes over nothing. Since 1.1.
+ * Prepares a scene, and takes over from what was prepared earlier, of this scene or of any other,
+ * what is made of the same entities. These are entities that were added to both, in the same order.
+ * What was moved (crt_entity_with_transform()), given another material, replaced, added or removed
+ * is prepared for itself. All answers and pictures are those of a scene that is prepared anew, to
+ * the bit, and so are the starts of hits. With NULL it is crt_scene_prepare(). Since 1.1.
  */
 CRT_API crt_status crt_scene_prepare_from(crt_scene* scene, crt_prepared* previous,
                                           crt_prepared** out);

@@ -42,8 +42,8 @@ class PreparedScene {
 /// Checks the scene (throws Error naming what is wrong) and builds what rays need.
 PreparedScene prepare(const Scene& scene);
 
-/// Prepares a scene that was prepared before and edited since. What is made of entities that are the
-/// same (copies of one another, in the same order) is taken over from the earlier one, if
+/// Prepares a scene that was prepared before and edited since. What is made of entities that are
+/// the same (copies of one another, in the same order) is taken over from the earlier one, if
 /// Settings::precision is the same. So a new camera, light, background or other setting costs next
 /// to nothing, and so do other materials that let no light in. Of thousands of entities some that
 /// were moved, replaced, added or removed take a few milliseconds. All answers and pictures are

@@ -4,7 +4,6 @@
 #include <crt/crt.h>
 
 #include <array>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
