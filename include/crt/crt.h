@@ -1129,10 +1129,10 @@ CRT_API crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* 
 CRT_API crt_status crt_scene_save_script(crt_scene* scene, const char* path);
 
 /**
- * Checks the scene, which stays as it is, and builds what rays need. That is not built again while
- * an earlier prepared form of the same scene still exists and no entity has come, gone or changed
- * place since. Then a new camera, light, background or setting (other than the precision) costs
- * next to nothing.
+ * Checks the scene, which stays as it is, and builds what rays need. While an earlier prepared form
+ * of the same scene still exists, it takes over what it can from the last one, as
+ * crt_scene_prepare_from() does. Then a new camera, light, background or setting (other than the
+ * precision) costs next to nothing, and a few other entities little.
  */
 CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
 
@@ -1157,6 +1157,8 @@ typedef struct crt_prepare_options {
    * solid of several primitives, or a mesh, counts once if one entity is placed 16 times or more,
    * and each of its uses as one primitive of 512 bytes. */
   uint64_t max_primitives;
+  /** NULL, or the scene that parts are taken from, as crt_scene_prepare_from() does. Since 1.1. */
+  crt_prepared* previous;
 } crt_prepare_options;
 
 /** Fills in the defaults, which are all 0. */
@@ -1164,6 +1166,16 @@ CRT_API crt_status crt_prepare_options_init(crt_prepare_options* options, size_t
 
 /** Prepares as crt_scene_prepare() does, with options. NULL stands for the defaults. */
 CRT_API crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options,
+                                          crt_prepared** out);
+
+/**
+ * Prepares a scene, and takes over from what was prepared earlier, of this scene or of any other,
+ * what is made of the same entities. These are entities that were added to both, in the same order.
+ * What was moved (crt_entity_with_transform()), given another material, replaced, added or removed
+ * is prepared for itself. All answers and pictures are those of a scene that is prepared anew, to
+ * the bit, and so are the starts of hits. With NULL it is crt_scene_prepare(). Since 1.1.
+ */
+CRT_API crt_status crt_scene_prepare_from(crt_scene* scene, crt_prepared* previous,
                                           crt_prepared** out);
 
 /** @} */

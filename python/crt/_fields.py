@@ -379,6 +379,11 @@ FIELDS = {
             "once if one entity is placed 16 times or more, and each of its uses as one "
             "primitive of 512 bytes.",
         ),
+        (
+            "crt_prepared* previous",
+            "None, or the scene that parts are taken from, as crt_scene_prepare_from() does. "
+            "Since 1.1.",
+        ),
     ),
     "crt_script_options": (
         (

@@ -403,6 +403,12 @@ FUNCTIONS = {
         "const crt_prepare_options* options",
         "crt_prepared** out",
     ),
+    "crt_scene_prepare_from": (
+        "crt_status",
+        "crt_scene* scene",
+        "crt_prepared* previous",
+        "crt_prepared** out",
+    ),
     "crt_file_content_append": (
         "crt_status",
         "crt_file_content* content",

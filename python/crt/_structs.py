@@ -220,8 +220,8 @@ def _field(declaration: str) -> tuple[str, Any, str | None]:
     if "*" in declaration:
         if declaration.startswith("const char* ") and "const*" not in declaration:
             return field, ctypes.c_char_p, None
-        is_ours = words[0] == "const" and words[1].startswith("crt_")
-        return field, ctypes.c_void_p, words[1].removesuffix("*") if is_ours else None
+        pointee = words[1 if words[0] == "const" else 0].removesuffix("*")
+        return field, ctypes.c_void_p, pointee if pointee.startswith("crt_") else None
     kind: Any = KINDS[words[0]]
     return field, kind * 3 if declaration.endswith("[3]") else kind, None
 

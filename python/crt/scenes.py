@@ -327,11 +327,16 @@ class Scene(Handle):
         with self._lock:
             library.crt_scene_save_script(self._update(), name)
 
-    def prepare(self, max_primitives: int = 0) -> Prepared:
+    def prepare(self, max_primitives: int = 0, previous: Prepared | None = None) -> Prepared:
         """Checks the scene and builds what rays need. Ctrl-C ends it, and comes out of here. A
-        scene of more than max_primitives is an error; 0 is as many as memory is enough for."""
+        scene of more than max_primitives is an error; 0 is as many as memory is enough for.
+
+        What was prepared last of this scene, or `previous`, is taken over as far as it is made of
+        the same entities. So a scene of thousands of parts of which some move is prepared in a few
+        milliseconds. Rays and pictures find the same, to the bit.
+        """
         guard = Guard()
-        options = _PrepareOptions(max_primitives=max_primitives)
+        options = _PrepareOptions(max_primitives=max_primitives, previous=previous)
         options.poll = POLL(lambda _user: guard.call(_nothing))
         with self._lock, guard.raising():
             return Prepared._adopt(

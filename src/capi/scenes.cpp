@@ -199,7 +199,9 @@ crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* o
       };
     }
     std::optional<crt::PreparedScene> earlier;
-    if (auto data = scene->prepared.lock()) {
+    if (given.previous != nullptr) {
+      how.earlier = &given.previous->value;
+    } else if (auto data = scene->prepared.lock()) {
       earlier.emplace(std::move(data));
       how.earlier = &*earlier;
     }
@@ -207,4 +209,12 @@ crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* o
     scene->prepared = prepared.watched_data();
     *out = new crt_prepared(std::move(prepared));
   });
+}
+
+crt_status crt_scene_prepare_from(crt_scene* scene, crt_prepared* previous, crt_prepared** out) {
+  crt_prepare_options options;
+  const crt_status status = crt_prepare_options_init(&options, sizeof options);
+  if (status != CRT_OK) return status;
+  options.previous = previous;
+  return crt_scene_prepare_with(scene, &options, out);
 }

@@ -223,7 +223,8 @@ template <>
 std::span<const CField> c_fields<crt_prepare_options>() {
   using S = crt_prepare_options;
   static constexpr std::array fields = {CRT_FIELD(S, reserved), CRT_FIELD(S, poll),
-                                        CRT_FIELD(S, poll_user), CRT_FIELD(S, max_primitives)};
+                                        CRT_FIELD(S, poll_user), CRT_FIELD(S, max_primitives),
+                                        CRT_FIELD(S, previous)};
   return fields;
 }
 

@@ -229,12 +229,13 @@ AT(crt_render_options, aovs, 68);
 AT(crt_render_options, checkpoint, 72);
 AT(crt_render_options, max_ray_steps, 80);
 
-SIZE(crt_prepare_options, 32);
+SIZE(crt_prepare_options, 40);
 AT(crt_prepare_options, struct_size, 0);
 AT(crt_prepare_options, reserved, 4);
 AT(crt_prepare_options, poll, 8);
 AT(crt_prepare_options, poll_user, 16);
 AT(crt_prepare_options, max_primitives, 24);
+AT(crt_prepare_options, previous, 32);
 
 SIZE(crt_blob_part, 64);
 AT(crt_blob_part, from, 0);

@@ -52,7 +52,7 @@ RayBatch rays_along(RayMask mask) {
 
 TEST_CASE("boxes are visited with all rays of a packet's mask and with no others") {
   const Row row;
-  const EmbreeTree tree(row.boxes, row.total);
+  const EmbreeTree tree(row.boxes, row.total, row.total.farthest());
   const PacketStarts starts;
   for (const RayMask mask : masks) {
     const RayBatch batch = rays_along(mask);

@@ -202,6 +202,8 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"settings", [&] { return crt_scene_get_settings(scene.get(), nullptr); }},
       {"scene", [&] { return crt_scene_prepare(nullptr, nullptr); }},
       {"out", [&] { return crt_scene_prepare(scene.get(), nullptr); }},
+      {"scene", [&] { return crt_scene_prepare_from(nullptr, nullptr, nullptr); }},
+      {"out", [&] { return crt_scene_prepare_from(scene.get(), nullptr, nullptr); }},
       {"text",
        [&] { return crt_scene_from_script(nullptr, 1, "x", nullptr, nullptr, &made_scene); }},
       {"name",

@@ -4,7 +4,6 @@
 #include <crt/crt.h>
 
 #include <array>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -433,7 +432,9 @@ void Session::call(std::uint32_t which) {
   const auto copy = [&](crt_scene** out) { return crt_scene_copy(scenes_.any(input_), out); };
   if (which < 19) return scenes_.make(copy);
   if (which < 25) return edit_scene();
-  const auto make = [&](crt_prepared** out) { return crt_scene_prepare(scenes_.any(input_), out); };
+  const auto make = [&](crt_prepared** out) {
+    return crt_scene_prepare_from(scenes_.any(input_), prepared_.any(input_), out);
+  };
   if (which < 27) return prepared_.make(make);
   if (which < 29) return use_prepared();
   if (which < 30) return use_image();

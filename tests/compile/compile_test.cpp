@@ -10,6 +10,7 @@
 #include "core/compile/surface_table.hpp"
 #include "core/entity/entity_node.hpp"
 #include "crt/query.hpp"
+#include "support/same_scene.hpp"
 
 using namespace crt;
 using namespace crt::core;
@@ -57,40 +58,6 @@ std::vector<Entity> mixed_entities() {
   return entities;
 }
 
-bool same_box(const Bounds& a, const Bounds& b) {
-  return a.lower == b.lower && a.upper == b.upper;
-}
-
-bool same_leaf(const Leaf& a, const Leaf& b) {
-  return same_box(a.bounds, b.bounds) && a.placement->to_world() == b.placement->to_world() &&
-         a.material == b.material && a.entity_id == b.entity_id && a.first_face == b.first_face &&
-         a.face_count == b.face_count && a.complemented == b.complemented;
-}
-
-bool same_face(const FaceSurface& a, const FaceSurface& b) {
-  return a.surface == b.surface && a.flipped == b.flipped && a.shared == b.shared;
-}
-
-bool same_node(const CsgNode& a, const CsgNode& b) {
-  return a.parent == b.parent && a.needed == b.needed && a.count_outside == b.count_outside;
-}
-
-bool same_program(const CsgProgram& a, const CsgProgram& b) {
-  return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same_node) &&
-         a.leaf_parents == b.leaf_parents && a.first_leaf == b.first_leaf && a.tree == b.tree &&
-         a.shared_surfaces == b.shared_surfaces && same_box(a.bounds, b.bounds);
-}
-
-bool same_object(const SceneObject& a, const SceneObject& b) {
-  return a.first_leaf == b.first_leaf && a.program == b.program && same_box(a.bounds, b.bounds) &&
-         a.solid == b.solid;
-}
-
-template <class Item, class Same>
-bool all_same(const std::vector<Item>& a, const std::vector<Item>& b, const Same& same) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
-}
-
 }  // namespace
 
 TEST_CASE("a scene is compiled to the same on any number of threads") {
@@ -99,12 +66,9 @@ TEST_CASE("a scene is compiled to the same on any number of threads") {
   CHECK(scene.leaves.size() > 80'000);
   for (const int threads : {0, 2, 5}) {
     const CompiledScene other = compile(entities, Precision::standard, threads);
-    CHECK(all_same(scene.leaves, other.leaves, same_leaf));
-    CHECK(all_same(scene.face_surfaces, other.face_surfaces, same_face));
-    CHECK(all_same(scene.objects, other.objects, same_object));
-    CHECK(all_same(scene.programs, other.programs, same_program));
-    CHECK(scene.placements.size() == other.placements.size());
-    CHECK(scene.materials.size() == other.materials.size());
+    CHECK(test::same_scene(scene, other));
+    CHECK(test::same_materials(*scene.materials, *other.materials));
+    CHECK(scene.stores[0]->placements.size() == other.stores[0]->placements.size());
   }
 }
 
@@ -126,7 +90,7 @@ TEST_CASE("faces are on one surface if the surfaces agree, among very many") {
   entities.insert(entities.end(), balls.begin(), balls.end());
   const CompiledScene scene = compile(entities);
   REQUIRE(scene.objects.size() == 10'001);
-  REQUIRE(scene.programs[0].shared_surfaces == 10'000);
+  REQUIRE(scene.programs[0]->shared_surfaces == 10'000);
   std::vector<bool> seen(10'000, false);
   for (std::uint32_t ball = 0; ball < 10'000; ++ball) {
     for (std::uint32_t copy = 0; copy < 4; ++copy) {

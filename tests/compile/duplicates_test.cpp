@@ -100,7 +100,7 @@ TEST_CASE("equal shapes of different materials are one only where none lets ligh
   CHECK(leaves_of({ball.with_material(shared), ball.with_material(shared)}) == 1);
   // Of the parts of one solid the first is seen, whatever their materials are.
   CHECK(leaves_of({with(glass) + with(red)}) == 1);
-  CHECK(compile(std::vector<Entity>{with(glass) + with(red)}).leaves[0].material == 0);
+  CHECK(compile(std::vector<Entity>{with(glass) + with(red)}).materials->of_leaves[0] == 0);
 }
 
 TEST_CASE("a ray crosses what is there twice once, and finds the first") {

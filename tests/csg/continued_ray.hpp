@@ -10,17 +10,17 @@
 namespace crt::test {
 
 /// Returns a ray that continues from a hit, through it or back.
-inline core::WorldRay continued(const core::CompiledScene& scene, const core::CsgProgram& program,
+inline core::WorldRay continued(const core::CompiledScene& scene, const core::CsgObject& object,
                                 const core::WorldRay& ray, const core::CsgHit& hit,
                                 const Vec3& direction, core::Side side) {
   core::WorldRay next;
   next.origin = ray.origin + hit.t * ray.direction;
   next.direction = direction;
-  const core::Leaf& leaf = scene.leaves[program.first_leaf + hit.leaf];
+  const core::Leaf& leaf = scene.leaves[object.first_leaf + hit.leaf];
   const core::FaceSurface& surface = scene.face_surfaces[leaf.first_face + hit.face];
   const bool outside = (side == core::Side::outside) != surface.flipped;
   const Vec3 size = glm::abs(next.origin);
-  next.start = {.leaf = program.first_leaf + hit.leaf,
+  next.start = {.leaf = object.first_leaf + hit.leaf,
                 .face = hit.face,
                 .surface = surface.surface,
                 .side = outside ? core::Side::outside : core::Side::inside,

@@ -19,6 +19,7 @@ using namespace crt::test;
 using core::CompiledScene;
 using core::CsgEvaluation;
 using core::CsgHit;
+using core::CsgObject;
 using core::CsgProgram;
 using core::CsgWorkspace;
 using core::WorldRay;
@@ -34,9 +35,9 @@ CompiledScene compiled(const Entity& entity, Precision precision = Precision::st
 /// Compares along one ray. Returns how many hits there are.
 std::size_t compare(const CompiledScene& scene, const WorldRay& ray, CsgWorkspace& work) {
   std::size_t hits = 0;
-  for (const CsgProgram& program : scene.programs) {
-    const PlainEvaluation plain = evaluate_plainly(scene, program, ray);
-    CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, ray, work);
+  for (const CsgObject& object : csg_objects(scene)) {
+    const PlainEvaluation plain = evaluate_plainly(scene, object, ray);
+    CsgEvaluation evaluation(object, ray, work);
     REQUIRE(evaluation.starts_inside() == plain.starts_inside);
     CsgHit hit;
     for (const CsgHit& expected : plain.hits) {
@@ -149,7 +150,7 @@ TEST_CASE(
             ? csg_difference(Box{.corner_a = corner - around, .corner_b = corner + size + around},
                              std::vector<Entity>{hole})
             : hole ^ Sphere{corner, 20});
-    const CsgProgram& program = scene.programs.front();
+    const CsgObject object = csg_objects(scene).front();
     // The ray starts on the hole's upper face, but for some last bits, and goes into it.
     WorldRay ray;
     ray.origin = corner + Vec3(0.5, 1, 0.5) * size;
@@ -157,7 +158,7 @@ TEST_CASE(
     for (int ulps = make.integer(0, 3); ulps > 0; --ulps)
       ray.origin.y = std::nextafter(ray.origin.y, away);
     ray.direction = {make.real(-1, 1), -std::exp2(make.real(-80, 0)), make.real(-1, 1)};
-    std::uint32_t leaf = program.first_leaf;
+    std::uint32_t leaf = object.first_leaf;
     while (scene.leaves[leaf].face_count != 6 || scene.leaves[leaf].complemented != is_cutter)
       ++leaf;
     const core::FaceSurface& surface = scene.face_surfaces[scene.leaves[leaf].first_face + upper_y];
@@ -166,7 +167,7 @@ TEST_CASE(
                  .surface = surface.surface,
                  .side = surface.flipped ? core::Side::outside : core::Side::inside,
                  .t_error = core::start_rounding * core::largest_component(ray.origin)};
-    CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, ray, work);
+    CsgEvaluation evaluation(object, ray, work);
     REQUIRE(evaluation.starts_inside() == !is_cutter);
     CsgHit hit;
     REQUIRE(evaluation.next(hit));
@@ -198,12 +199,12 @@ TEST_CASE("rays that start on the object agree with the plain evaluation to the 
     CAPTURE(seed);
     for (int i = 0; i < 30; ++i) {
       const WorldRay ray = random_ray(make);
-      for (const CsgProgram& program : scene.programs) {
-        for (const CsgHit& hit : evaluate_plainly(scene, program, ray).hits) {
+      for (const CsgObject& object : csg_objects(scene)) {
+        for (const CsgHit& hit : evaluate_plainly(scene, object, ray).hits) {
           const Vec3 direction = make.integer(0, 1) == 0 ? ray.direction : make.grid_point();
           if (direction == Vec3(0)) continue;
           for (const core::Side side : {core::Side::outside, core::Side::inside}) {
-            hits += compare(scene, continued(scene, program, ray, hit, direction, side), work);
+            hits += compare(scene, continued(scene, object, ray, hit, direction, side), work);
           }
         }
       }
@@ -236,15 +237,15 @@ TEST_CASE("deep chains of operations agree with the plain evaluation to the bit"
     const Precision precision = seed % 4 == 3 ? Precision::exact : Precision::standard;
     const CompiledScene scene = compiled(chain(make, make.integer(100, 300)), precision);
     CAPTURE(seed);
-    for (const CsgProgram& program : scene.programs) deep += !program.paths.empty();
+    for (const CsgProgram* const program : scene.programs) deep += !program->paths.empty();
     for (int i = 0; i < 40; ++i) {
       const WorldRay ray = random_ray(make);
       hits += compare(scene, ray, work);
-      for (const CsgProgram& program : scene.programs) {
-        for (const CsgHit& hit : evaluate_plainly(scene, program, ray).hits) {
+      for (const CsgObject& object : csg_objects(scene)) {
+        for (const CsgHit& hit : evaluate_plainly(scene, object, ray).hits) {
           const core::Side side =
               make.integer(0, 1) == 0 ? core::Side::outside : core::Side::inside;
-          hits += compare(scene, continued(scene, program, ray, hit, ray.direction, side), work);
+          hits += compare(scene, continued(scene, object, ray, hit, ray.direction, side), work);
         }
       }
     }
@@ -256,7 +257,7 @@ TEST_CASE("deep chains of operations agree with the plain evaluation to the bit"
 TEST_CASE("a hundred shells agree with the plain evaluation to the bit") {
   const CompiledScene scene = compiled(alternating(100));
   REQUIRE(scene.programs.size() == 1);
-  REQUIRE_FALSE(scene.programs[0].paths.empty());
+  REQUIRE_FALSE(scene.programs[0]->paths.empty());
   CsgWorkspace work;
   SolidMaker make(3);
   std::size_t hits = 0;
@@ -276,7 +277,7 @@ TEST_CASE("a ray asks the holes that it comes near, however many there are") {
   for (const int n : {10, 100}) {
     const CompiledScene scene = compiled(plate_with_holes(n));
     CsgWorkspace work;
-    CsgEvaluation evaluation(scene.programs[0], scene.leaves, scene.face_surfaces, ray, work);
+    CsgEvaluation evaluation(csg_objects(scene)[0], ray, work);
     CsgHit hit;
     while (evaluation.next(hit)) continue;
     if (n == 10) events = work.events;
@@ -290,7 +291,7 @@ TEST_CASE("what lies behind the first hit is not asked") {
   // The ray goes along the plate, through all holes of a row. The first hit is its side.
   const WorldRay ray{.origin = {-5, 0.1, 3.5}, .direction = {1, 0, 0}};
   CsgWorkspace work;
-  CsgEvaluation evaluation(scene.programs[0], scene.leaves, scene.face_surfaces, ray, work);
+  CsgEvaluation evaluation(csg_objects(scene)[0], ray, work);
   CsgHit hit;
   REQUIRE(evaluation.next(hit));
   CHECK(hit.t == 5);

@@ -233,7 +233,8 @@ class Comparison {
            scene().programs.size() == 1 && !program().filter.empty();
   }
   bool is_exact() const { return scene().leaves.front().exact != nullptr; }
-  const CsgProgram& program() const { return scene().programs.front(); }
+  const CsgProgram& program() const { return *scene().programs.front(); }
+  CsgObject object() const { return scene().csg_object(scene().objects.front()); }
 
   /// Checks that rays find side by side what they find alone.
   void compare_packet(std::span<const WorldRay> rays, RayMask some) {
@@ -253,7 +254,7 @@ class Comparison {
   bool compare_filter(const WorldRay& ray, CsgHit& hit, Counts& counts) {
     WorldRay whole = ray;
     if (ray.t_max < infinity) whole.t_max = std::nextafter(ray.t_max, infinity);
-    CsgEvaluation evaluation(program(), scene().leaves, scene().face_surfaces, whole, csg_work_);
+    CsgEvaluation evaluation(object(), whole, csg_work_);
     const bool found = evaluation.next(hit);
     compare_change(ray, found ? &hit : nullptr, counts);
     return found;
@@ -267,19 +268,18 @@ class Comparison {
   }
 
  private:
-  explicit Comparison(CompiledScene compiled)
-      : materials_(compiled.materials), accelerator_(std::move(compiled), materials_) {}
+  explicit Comparison(CompiledScene compiled) : accelerator_(std::move(compiled)) {}
 
   void compare_change(const WorldRay& ray, const CsgHit* hit, Counts& counts) {
     const FilterLine<double> line = line_of(ray);
     const bool on_surface = ray.start.surface != invalid_index;
-    const BoundaryTransitions<double> change = program().filter.first_transitions<double>(
-        {.lines = line,
-         .limits = ray.t_max,
-         .asked = 1,
-         .on_surface = on_surface,
-         .starts = {&ray.start, 1}},
-        program(), scene().leaves, scene().face_surfaces, near_leaves_, csg_work_.steps);
+    const BoundaryTransitions<double> change =
+        program().filter.first_transitions<double>({.lines = line,
+                                                    .limits = ray.t_max,
+                                                    .asked = 1,
+                                                    .on_surface = on_surface,
+                                                    .starts = {&ray.start, 1}},
+                                                   object(), near_leaves_, csg_work_.steps);
     if (change.none) {
       ++counts.missed;
       REQUIRE(hit == nullptr);
@@ -304,14 +304,13 @@ class Comparison {
     REQUIRE(nearest.t == hit->t);
     REQUIRE(nearest.error == hit->error);
     REQUIRE(nearest.t_low == hit->t_low);
-    REQUIRE(nearest.leaf == program().first_leaf + hit->leaf);
+    REQUIRE(nearest.leaf == object().first_leaf + hit->leaf);
     REQUIRE(nearest.face == hit->face);
     REQUIRE(nearest.surface == hit->surface);
     REQUIRE(nearest.root == hit->root);
     REQUIRE(nearest.entering == hit->entering);
   }
 
-  std::vector<SharedMaterial> materials_;
   Accelerator accelerator_;
   CsgWorkspace csg_work_;
   NearLeavesWorkspace near_leaves_;
@@ -366,7 +365,7 @@ TEST_CASE("what a filter calls sure is what following all crossings finds") {
           const Vec3 direction = k == 0 ? ray.direction : random_ray(trees).direction;
           CsgHit next;
           comparison.compare(
-              continued(comparison.scene(), comparison.program(), ray, hit, direction, side), next,
+              continued(comparison.scene(), comparison.object(), ray, hit, direction, side), next,
               from_surface);
         }
       }
@@ -401,7 +400,7 @@ TEST_CASE("the filter of a large object is right about what it calls sure") {
       CsgHit hit;
       if (!comparison.compare(rays.back(), hit, free)) continue;
       const Side side = trees.random().integer(0, 1) == 0 ? Side::outside : Side::inside;
-      const WorldRay next = continued(comparison.scene(), comparison.program(), rays.back(), hit,
+      const WorldRay next = continued(comparison.scene(), comparison.object(), rays.back(), hit,
                                       random_ray(trees).direction, side);
       comparison.compare(next, hit, from_surface);
       if (rays.size() < packet_size) rays.push_back(next);
@@ -433,7 +432,7 @@ TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
       if (trees.random().integer(0, 1) == 0 && comparison.compare(ray, hit, counts)) {
         const Vec3 direction = random_ray(trees).direction;
         const Side side = trees.random().integer(0, 1) == 0 ? Side::outside : Side::inside;
-        ray = continued(comparison.scene(), comparison.program(), ray, hit, direction, side);
+        ray = continued(comparison.scene(), comparison.object(), ray, hit, direction, side);
       }
       const int alike = trees.random().integer(1, 5);
       for (int i = 0; i < alike && rays.size() < packet_size; ++i) {

@@ -19,9 +19,13 @@ struct Values {
 
 class Plain {
  public:
-  Plain(const core::CompiledScene& scene, const CsgProgram& program, const core::WorldRay& ray)
-      : scene_(scene), program_(program), ray_(ray), inside_(program.leaf_count(), false) {
-    for (std::uint32_t leaf = 0; leaf < program.leaf_count(); ++leaf) collect(leaf);
+  Plain(const core::CompiledScene& scene, const core::CsgObject& object, const core::WorldRay& ray)
+      : scene_(scene),
+        program_(object.program),
+        first_leaf_(object.first_leaf),
+        ray_(ray),
+        inside_(program_.leaf_count(), false) {
+    for (std::uint32_t leaf = 0; leaf < program_.leaf_count(); ++leaf) collect(leaf);
     std::sort(crossings_.begin(), crossings_.end(), [](const CsgCrossing& a, const CsgCrossing& b) {
       return std::tie(a.t, a.t_low, a.leaf, a.entering) <
              std::tie(b.t, b.t_low, b.leaf, b.entering);
@@ -42,7 +46,7 @@ class Plain {
   }
 
  private:
-  const Leaf& leaf(std::uint32_t index) const { return scene_.leaves[program_.first_leaf + index]; }
+  const Leaf& leaf(std::uint32_t index) const { return scene_.leaves[first_leaf_ + index]; }
 
   void collect(std::uint32_t index) {
     const Leaf& leaf = this->leaf(index);
@@ -55,7 +59,7 @@ class Plain {
       return;
     core::ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
     object_ray.start =
-        core::start_on_leaf(leaf, program_.first_leaf + index, scene_.face_surfaces, ray_.start);
+        core::start_on_leaf(leaf, first_leaf_ + index, scene_.face_surfaces, ray_.start);
     core::CrossingList found;
     std::uint64_t escalations = 0;
     inside_[index] = core::leaf_crossings(leaf, ray_, object_ray, found, escalations);
@@ -188,6 +192,7 @@ class Plain {
 
   const core::CompiledScene& scene_;
   const CsgProgram& program_;
+  std::uint32_t first_leaf_;
   const core::WorldRay& ray_;
   std::vector<bool> inside_;
   std::vector<CsgCrossing> crossings_;
@@ -195,9 +200,9 @@ class Plain {
 
 }  // namespace
 
-PlainEvaluation evaluate_plainly(const core::CompiledScene& scene, const CsgProgram& program,
+PlainEvaluation evaluate_plainly(const core::CompiledScene& scene, const core::CsgObject& object,
                                  const core::WorldRay& ray) {
-  return Plain(scene, program, ray).evaluate();
+  return Plain(scene, object, ray).evaluate();
 }
 
 }  // namespace crt::test

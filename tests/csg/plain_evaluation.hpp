@@ -14,7 +14,16 @@ struct PlainEvaluation {
   bool starts_inside = false;
   std::vector<core::CsgHit> hits;
 };
-PlainEvaluation evaluate_plainly(const core::CompiledScene& scene, const core::CsgProgram& program,
+PlainEvaluation evaluate_plainly(const core::CompiledScene& scene, const core::CsgObject& object,
                                  const core::WorldRay& ray);
+
+/// Returns the objects of a scene that are made of several leaves.
+inline std::vector<core::CsgObject> csg_objects(const core::CompiledScene& scene) {
+  std::vector<core::CsgObject> objects;
+  for (const core::SceneObject& object : scene.objects) {
+    if (object.is_csg()) objects.push_back(scene.csg_object(object));
+  }
+  return objects;
+}
 
 }  // namespace crt::test

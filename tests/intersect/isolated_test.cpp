@@ -225,8 +225,7 @@ TEST_CASE("a ray finds the same among few objects and many") {
 TEST_CASE("transparent solids keep apart whose boxes do not touch") {
   const auto is_isolated = [](std::vector<Entity> entities) {
     CompiledScene scene = compile(entities);
-    const std::vector<SharedMaterial> materials = std::move(scene.materials);
-    const Accelerator accelerator(std::move(scene), materials);
+    const Accelerator accelerator(std::move(scene));
     RayWorkspace work;
     const WorldRay ray{.origin = {0, 0, -9}, .direction = {0, 0, 1}};
     const RayHit hit = accelerator.nearest(ray, work);

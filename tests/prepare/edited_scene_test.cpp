@@ -104,6 +104,40 @@ TEST_CASE("an edit that makes the scene wrong is an error, and the earlier one s
   CHECK(same_picture(before, prepare(small_scene())));
 }
 
+TEST_CASE("entities of other materials share what rays meet") {
+  Scene scene = small_scene();
+  const PreparedScene before = prepare(scene);
+  const Sphere green{.center = {-2, 0, 0}, .material = Material{.color = Color{0, 1, 0}}};
+  const Sphere glass{.center = {-2, 0, 0}, .material = Material{.transparency = 0.5}};
+  scene.entities[1] = green;
+  PreparedScene after = prepare(scene, before);
+  CHECK(after.data().shares_geometry_with(before.data()));
+  CHECK(same_picture(after, prepare(scene)));
+  // From there on it is edited as any other.
+  scene.entities.emplace_back(Sphere{.center = {2, 0, -2}});
+  after = prepare(scene, after);
+  CHECK(same_picture(after, prepare(scene)));
+  // Where light enters makes a difference to rays.
+  scene.entities[1] = glass;
+  CHECK_FALSE(prepare(scene, after).data().shares_geometry_with(after.data()));
+  CHECK(same_picture(prepare(scene, after), prepare(scene)));
+}
+
+TEST_CASE("preparing from an earlier scene is cancelled and limited as preparing anew") {
+  Scene scene = small_scene();
+  const PreparedScene before = prepare(scene);
+  scene.entities[1] = scene.entities[1].transformed(translate({1, 0, 0}));
+  PrepareOptions options{.earlier = &before};
+  options.go_on = [] { return false; };
+  CHECK_THROWS_AS(prepare(scene, options), Error);
+  options.go_on = nullptr;
+  options.max_primitives = 2;
+  CHECK_THROWS_AS(prepare(scene, options), Error);
+  CHECK_THROWS_AS(prepare(small_scene(), options), Error);
+  options.max_primitives = 3;
+  CHECK(same_picture(prepare(scene, options), prepare(scene)));
+}
+
 TEST_CASE("other materials on the same entities are prepared as if they were the entities' own") {
   const SharedMaterial red(Material{.color = Color{1, 0, 0}});
   const SharedMaterial glass(Material{.transparency = 1, .refractive_index = 1.5});

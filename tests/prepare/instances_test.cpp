@@ -193,7 +193,7 @@ TEST_CASE("a solid that is placed often is compiled once") {
     const CompiledScene shared = compile(shared_scene(precision).entities, precision);
     CHECK(shared.instances.size() == 961);
     REQUIRE(shared.prototypes.size() == 1);
-    CHECK(shared.prototypes[0]->leaves.size() == 36);
+    CHECK(shared.prototypes[0].scene->leaves.size() == 36);
     CHECK(shared.leaves.size() == 1);
     CHECK(compile(scene_of_copies(precision).entities, precision).leaves.size() == 961 * 36 + 1);
   }

@@ -56,6 +56,7 @@ class Messages(unittest.TestCase):
             (lambda: crt.Scene(camera=1), "Scene: camera must be a Camera", "1"),
             (lambda: crt.Scene().add(1), "add: a thing must be an Entity or a Light", "1"),
             (lambda: crt.Scene().prepare("a"), "prepare: max_primitives must be a whole", "'a'"),
+            (lambda: crt.Scene().prepare(previous=3), "prepare: previous must be a Prepared", "3"),
             (lambda: crt.Scene.from_script(1), "Scene.from_script: script must be a text", "1"),
             (lambda: crt.Scene.from_file(1), "Scene.from_file: path must be a text", "1"),
             (

@@ -26,6 +26,22 @@ def hits_along_x(scene: crt.Scene) -> list[float]:
     return list(scene.prepare().crossings(crt.ray((-10, 0.25, 0.25), (1, 0, 0)))["entity_id"])
 
 
+class Edits(unittest.TestCase):
+    def test_a_scene_is_prepared_from_what_another_was(self):
+        parts = [crt.Sphere((x, 0, 0), 0.75) for x in range(100)]
+        before = crt.Scene(parts).prepare()
+        parts[40] = parts[40].moved((0, 0.5, 0))
+        del parts[7]
+        rays = np.zeros(400, crt.RAY)
+        rays["origin"] = [(0.25 * i, 0.3, -9) for i in range(400)]
+        rays["direction"] = (0, 0, 1)
+        rays["t_max"] = np.inf
+        after = crt.Scene(parts).prepare(previous=before)
+        anew = crt.Scene(parts).prepare()
+        self.assertEqual(after.trace(rays).tobytes(), anew.trace(rays).tobytes())
+        self.assertNotEqual(after.trace(rays).tobytes(), before.trace(rays).tobytes())
+
+
 class Saving(unittest.TestCase):
     def test_a_saved_scene_is_read_as_the_same(self):
         image = crt.Image.from_pixels(np.random.default_rng(1).random((4, 4, 4), np.float32))

@@ -75,7 +75,8 @@ bool may_go_on(void* stoppable_build, double /*share*/) {
 
 }  // namespace
 
-EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, StopCheck* stop) {
+EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, double farthest,
+                       StopCheck* stop) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
     center_[axis] = total.lower[axis] / 2 + total.upper[axis] / 2;
@@ -83,7 +84,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, StopC
         std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
   }
   if (extent > 0) scale_ = 0.5 / power_of_two_below(extent);
-  const double margin = box_margin + place_margin * total.farthest() * scale_;
+  const double margin = box_margin + place_margin * farthest * scale_;
   total_ = total.grown(2 * margin / scale_);
 
   auto handles = std::make_unique<Handles>();

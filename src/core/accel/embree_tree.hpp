@@ -31,15 +31,39 @@ class PacketVisitor {
   virtual RayMask visit(std::uint32_t box, RayMask rays) = 0;
 };
 
+/// A BoxCaller calls visit(box) for each box.
+template <class Visit>
+class BoxCaller final : public BoxVisitor {
+ public:
+  explicit BoxCaller(const Visit& call) : call_(call) {}
+  double visit(std::uint32_t box) override { return call_(box); }
+
+ private:
+  const Visit& call_;
+};
+
+/// A PacketCaller calls visit(box, rays) for each box.
+template <class Visit>
+class PacketCaller final : public PacketVisitor {
+ public:
+  explicit PacketCaller(const Visit& call) : call_(call) {}
+  RayMask visit(std::uint32_t box, RayMask met) override { return call_(box, met); }
+
+ private:
+  const Visit& call_;
+};
+
 /// An EmbreeTree gives Embree boxes that are moved and scaled by a power of two to around 1. Embree
 /// works in floats, and silently drops what is too large for it. The boxes are also grown by more
 /// than all roundings add up to. So Embree decides nothing and only spares tests. The scene's own
 /// size and place never matter.
 class EmbreeTree {
  public:
-  /// Builds the tree over boxes, all of which must be finite. `total` is the box around them.
-  /// `stop` may stop the building.
-  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, StopCheck* stop = nullptr);
+  /// Builds the tree over boxes, all of which must be finite. `total` is the box around them. No
+  /// ray starts on anything that has a larger coordinate than `farthest`. `stop` may stop the
+  /// building.
+  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, double farthest,
+             StopCheck* stop = nullptr);
   ~EmbreeTree();
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;
@@ -57,15 +81,7 @@ class EmbreeTree {
   template <class Visit>
   void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
                 bool from_near, const Visit& visit) const {
-    class Caller final : public BoxVisitor {
-     public:
-      explicit Caller(const Visit& call) : call_(call) {}
-      double visit(std::uint32_t box) override { return call_(box); }
-
-     private:
-      const Visit& call_;
-    };
-    Caller caller(visit);
+    BoxCaller<Visit> caller(visit);
     traverse(origin, direction, t_min, t_max, from_near, static_cast<BoxVisitor&>(caller));
   }
 
@@ -73,15 +89,7 @@ class EmbreeTree {
   void traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const;
   template <class Visit>
   void traverse(const RayPacket& packet, RayMask rays, const Visit& visit) const {
-    class Caller final : public PacketVisitor {
-     public:
-      explicit Caller(const Visit& call) : call_(call) {}
-      RayMask visit(std::uint32_t box, RayMask met) override { return call_(box, met); }
-
-     private:
-      const Visit& call_;
-    };
-    Caller caller(visit);
+    PacketCaller<Visit> caller(visit);
     traverse(packet, rays, static_cast<PacketVisitor&>(caller));
   }
 

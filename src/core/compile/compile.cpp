@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <tuple>
+#include <numeric>
 
 #include "core/compile/duplicates.hpp"
 #include "core/compile/flatten.hpp"
@@ -93,48 +93,40 @@ Bounds narrow_bounds(const CsgProgram& program, std::span<Leaf> leaves) {
   return bounds[0];
 }
 
-/// Lists the faces of a leaf of many that lie on surfaces of leaves before it.
-std::unique_ptr<const SharedFaces> shared_faces_of(const Leaf& leaf,
-                                                   std::span<const FaceSurface> faces) {
-  SharedFaces shared;
-  for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
-    const std::uint32_t surface = faces[leaf.first_face + face].surface;
-    if (surface < leaf.first_face) shared.faces.push_back({surface, leaf.face_at(face)});
-  }
-  if (shared.faces.empty()) return nullptr;
-  std::sort(shared.faces.begin(), shared.faces.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.surface, a.face) < std::tie(b.surface, b.face);
-  });
-  return std::make_unique<const SharedFaces>(std::move(shared));
-}
-
 class Compiler {
  public:
-  Compiler(FlatScene flat, Precision precision, const Workers& workers)
+  /// Prototypes that `earlier` has are not compiled again.
+  Compiler(FlatScene flat, std::span<const Prototype> earlier, Precision precision,
+           const Workers& workers)
       : precision_(precision),
         workers_(workers),
         flat_(std::move(flat)),
-        keeps_chains_(precision == Precision::exact || !flat_.instances.empty()) {}
+        earlier_(earlier),
+        keeps_chains_(precision == Precision::exact || !flat_.instances.empty()) {
+    result_.stores.push_back(std::make_shared<CompiledStore>());
+  }
 
   CompiledScene compile();
   /// Compiles what instances share.
   CompiledScene compile_prototype();
 
  private:
+  CompiledStore& store() { return *result_.stores[0]; }
   void make_placements();
   void make_leaves();
   void make_faces();
-  void finish_program(CsgProgram& program);
+  void finish_program(const SceneObject& object);
   void finish_programs();
   void make_prototypes();
-  void finish_instances();
   void finish_objects();
   Bounds bounds_of(const SceneObject& object) const;
 
   Precision precision_;
   Workers workers_;
   FlatScene flat_;
+  std::span<const Prototype> earlier_;
   bool keeps_chains_;  ///< whether something refers to the maps of placements later
+  MaterialTable materials_;
   CompiledScene result_;
 };
 
@@ -145,18 +137,30 @@ CompiledScene Compiler::compile() {
   flat_.transforms = {};
   make_leaves();
   make_faces();
+  const std::size_t object_count = flat_.objects.size();
   remove_equal_instances(flat_, workers_);
   if (remove_duplicates(flat_, result_.leaves, result_.face_surfaces, workers_)) {
     make_leaves();
     make_faces();
   }
-  result_.materials = std::move(flat_.materials);
-  result_.programs = std::move(flat_.programs);
-  result_.programs.shrink_to_fit();
+  // Where an object counts once that is there twice, what is kept depends on what goes.
+  const bool is_unlisted = std::any_of(result_.leaves.begin(), result_.leaves.end(),
+                                       [](const Leaf& leaf) { return leaf.unlisted != nullptr; });
+  if (flat_.objects.size() == object_count && !is_unlisted)
+    result_.entity_ends = std::move(flat_.entity_ends);
+  if (result_.entity_ends.empty()) result_.surfaces = {};
+  result_.count = flat_.count;
+  result_.expanded_primitives = flat_.expanded_primitives;
+  materials_.list = std::move(flat_.materials);
+  materials_.default_material = flat_.default_material;
+  store().programs = std::move(flat_.programs);
+  store().programs.shrink_to_fit();
   finish_programs();
   make_prototypes();
-  finish_instances();
+  result_.materials = std::make_shared<const MaterialTable>(std::move(materials_));
+  result_.instances = std::move(flat_.instances);
   finish_objects();
+  finish_numbers(result_);
   return std::move(result_);
 }
 
@@ -180,80 +184,91 @@ CompiledScene Compiler::compile_prototype() {
 void Compiler::make_prototypes() {
   for (const PrototypeSource& source : flat_.prototypes) {
     workers_.poll();
-    CompiledScene prototype =
-        Compiler(flatten(source, precision_, workers_), precision_, workers_).compile_prototype();
+    const Material* const material = source.material == nullptr ? nullptr : &**source.material;
+    const auto found =
+        std::find_if(earlier_.begin(), earlier_.end(), [&](const Prototype& prototype) {
+          return prototype.node == source.node && prototype.material == material;
+        });
+    Prototype prototype{source.node, material, nullptr};
+    prototype.scene =
+        found != earlier_.end()
+            ? found->scene
+            : std::make_shared<const CompiledScene>(
+                  Compiler(flatten(source, precision_, workers_), {}, precision_, workers_)
+                      .compile_prototype());
     // Those of facets stand side by side, so all of them are taken as they stand.
-    const auto first = static_cast<std::uint32_t>(result_.materials.size());
-    result_.materials.insert(result_.materials.end(), prototype.materials.begin(),
-                             prototype.materials.end());
-    for (Leaf& leaf : prototype.leaves) leaf.material += first;
-    prototype.materials.clear();
-    result_.prototypes.push_back(std::make_unique<const CompiledScene>(std::move(prototype)));
-  }
-}
-
-void Compiler::finish_instances() {
-  result_.instances = std::move(flat_.instances);
-  std::uint64_t first_leaf = result_.leaves.size();
-  for (SceneObject& object : flat_.objects) {
-    if (!object.is_instance()) continue;
-    object.first_leaf = static_cast<std::uint32_t>(first_leaf);
-    first_leaf += result_.prototype_of(object).leaves.size();
-    if (first_leaf < invalid_index) continue;
-    throw Error(
-        ErrorCode::limit,
-        text::format("the instances of the scene have more than {} primitives", invalid_index),
-        "entities");
+    const std::vector<SharedMaterial>& list = prototype.scene->materials->list;
+    materials_.of_prototypes.push_back(static_cast<std::uint32_t>(materials_.list.size()));
+    materials_.list.insert(materials_.list.end(), list.begin(), list.end());
+    result_.prototypes.push_back(std::move(prototype));
   }
 }
 
 void Compiler::make_placements() {
   const bool exact = precision_ == Precision::exact;
-  result_.placements.resize(flat_.placements.size());
+  std::vector<Placement>& placements = store().placements;
+  placements.resize(flat_.placements.size());
   for_ranges(flat_.placements.size(), items_for_a_thread / 4, workers_,
              [&](std::size_t begin, std::size_t end) {
                for (std::size_t i = std::max<std::size_t>(begin, 1); i < end; ++i) {
                  const TransformChain& to_world = *flat_.placements[i];
-                 result_.placements[i] = exact ? Placement(to_world) : Placement(to_world.product);
+                 placements[i] = exact ? Placement(to_world) : Placement(to_world.product);
                }
              });
-  if (keeps_chains_) result_.transforms = std::move(flat_.transforms);
+  if (keeps_chains_) store().transforms = std::move(flat_.transforms);
 }
 
 void Compiler::make_leaves() {
+  const std::size_t count = flat_.leaves.size();
+  const bool is_exact = precision_ == Precision::exact;
+  CompiledStore& store = this->store();
   result_.leaves.clear();
-  result_.leaves.resize(flat_.leaves.size());
+  result_.leaves.resize(count);
+  materials_.of_leaves.resize(count);
+  result_.entity_ids.resize(count);
+  store.shapes.clear();
+  store.shapes.resize(count);
+  store.exact_shapes.clear();
+  store.exact_shapes.resize(is_exact ? count : 0);
   std::atomic<std::uint64_t> shape_bytes = 0;
-  for_ranges(flat_.leaves.size(), items_for_a_thread / 4, workers_,
-             [&](std::size_t begin, std::size_t end) {
-               std::uint64_t bytes = 0;
-               for (std::size_t i = begin; i < end; ++i) {
-                 const LeafSource& source = flat_.leaves[i];
-                 Leaf& leaf = result_.leaves[i];
-                 leaf.shape = make_shape(*source.primitive);
-                 if (precision_ == Precision::exact)
-                   leaf.exact = make_exact_shape(*source.primitive);
-                 leaf.placement = &result_.placements[source.placement];
-                 leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
-                 leaf.material = source.material;
-                 leaf.entity_id = source.entity_id;
-                 leaf.part_id = source.part_id;
-                 leaf.user = source.user;
-                 leaf.complemented = source.complemented;
-                 leaf.has_materials = source.has_materials;
-                 leaf.takes_entity_id = source.takes_entity_id;
-                 leaf.takes_part_id = source.takes_part_id;
-                 leaf.takes_user = source.takes_user;
-                 const FacetAttributes* const facets = leaf.shape->facet_attributes();
-                 leaf.has_normals = facets != nullptr && facets->has_normals();
-                 const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
-                 leaf.family = is_plain ? leaf.shape->family() : nullptr;
-                 leaf.face_count = leaf.shape->listed_face_count();
-                 bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
-               }
-               shape_bytes += bytes;
-             });
-  result_.shape_bytes = shape_bytes;
+  for_ranges(count, items_for_a_thread / 4, workers_, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t bytes = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const LeafSource& source = flat_.leaves[i];
+      Leaf& leaf = result_.leaves[i];
+      store.shapes[i] = make_shape(*source.primitive);
+      leaf.shape = store.shapes[i].get();
+      if (is_exact) {
+        store.exact_shapes[i] = make_exact_shape(*source.primitive);
+        leaf.exact = store.exact_shapes[i].get();
+      }
+      leaf.placement = &store.placements[source.placement];
+      leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
+      materials_.of_leaves[i] = source.material;
+      leaf.entity_id = source.entity_id;
+      leaf.part_id = source.part_id;
+      leaf.user = source.user;
+      leaf.complemented = source.complemented;
+      leaf.has_materials = source.has_materials;
+      leaf.is_mesh = source.is_mesh;
+      result_.entity_ids[i] = source.entity_id;
+      leaf.takes_entity_id = source.takes_entity_id;
+      leaf.takes_part_id = source.takes_part_id;
+      leaf.takes_user = source.takes_user;
+      const FacetAttributes* const facets = leaf.shape->facet_attributes();
+      leaf.has_normals = facets != nullptr && facets->has_normals();
+      const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
+      leaf.family = is_plain ? leaf.shape->family() : nullptr;
+      leaf.face_count = leaf.shape->listed_face_count();
+      bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
+    }
+    shape_bytes += bytes;
+  });
+  store.shape_bytes = shape_bytes;
+  result_.meshes.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (flat_.leaves[i].is_mesh) result_.meshes.push_back(i);
+  }
 }
 
 void Compiler::make_faces() {
@@ -279,22 +294,22 @@ void Compiler::make_faces() {
     leaf.unlisted->first_surface = static_cast<std::uint32_t>(count);
     count += leaf.shape->face_count();
   }
-  number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, workers_);
-  for (Leaf& leaf : result_.leaves) {
-    if (leaf.face_count <= Leaf::few_faces) continue;
-    leaf.shared_faces = shared_faces_of(leaf, result_.face_surfaces);
-  }
+  result_.surfaces =
+      number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, workers_);
+  for (Leaf& leaf : result_.leaves) list_shared_faces(leaf, result_.face_surfaces);
 }
 
 void Compiler::finish_programs() {
   // A large program uses all threads by itself, and many small ones are done side by side.
   constexpr std::uint32_t large = 2 * items_for_a_thread;
-  std::vector<CsgProgram*> small;
-  for (CsgProgram& program : result_.programs) {
-    if (program.leaf_count() >= large) {
-      finish_program(program);
+  std::vector<const SceneObject*> small;
+  for (const CsgProgram& program : store().programs) result_.programs.push_back(&program);
+  for (const SceneObject& object : flat_.objects) {
+    if (!object.is_csg()) continue;
+    if (result_.program_of(object).leaf_count() >= large) {
+      finish_program(object);
     } else {
-      small.push_back(&program);
+      small.push_back(&object);
     }
   }
   constexpr std::size_t programs_at_once = 64;
@@ -303,9 +318,10 @@ void Compiler::finish_programs() {
   });
 }
 
-void Compiler::finish_program(CsgProgram& program) {
+void Compiler::finish_program(const SceneObject& object) {
+  CsgProgram& program = store().programs[object.program];
   const std::span<Leaf> leaves =
-      std::span(result_.leaves).subspan(program.first_leaf, program.leaf_count());
+      std::span(result_.leaves).subspan(object.first_leaf, program.leaf_count());
   workers_.poll();
   finish_nodes(program, leaves);
   workers_.poll();
@@ -320,22 +336,28 @@ void Compiler::finish_program(CsgProgram& program) {
   boxes.reserve(leaves.size());
   for (const Leaf& leaf : leaves) boxes.push_back(leaf.bounds);
   program.tree = Bvh(boxes, workers_);
-  program.filter = IntervalFilter(program, leaves, result_.face_surfaces);
+  program.filter = IntervalFilter(program, leaves);
 }
 
 void Compiler::finish_objects() {
   result_.objects.reserve(flat_.objects.size());
-  for (SceneObject& object : flat_.objects) {
-    workers_.poll_at(result_.objects.size());
+  auto entity = result_.entity_ends.begin();
+  for (std::uint32_t i = 0; i < flat_.objects.size(); ++i) {
+    SceneObject& object = flat_.objects[i];
+    workers_.poll_at(i);
+    for (; entity != result_.entity_ends.end() && entity->object <= i; ++entity)
+      entity->object = static_cast<std::uint32_t>(result_.objects.size());
     object.bounds = bounds_of(object);
     // A surface that is no solid is an object by itself.
     if (!object.solid && !object.is_instance()) result_.leaves[object.first_leaf].of_solid = false;
     if (!object.bounds.empty()) result_.objects.push_back(object);
   }
+  for (; entity != result_.entity_ends.end(); ++entity)
+    entity->object = static_cast<std::uint32_t>(result_.objects.size());
 }
 
 Bounds Compiler::bounds_of(const SceneObject& object) const {
-  if (object.is_csg()) return result_.programs[object.program].bounds;
+  if (object.is_csg()) return result_.program_of(object).bounds;
   if (!object.is_instance()) return result_.leaves[object.first_leaf].bounds;
   const CompiledScene& prototype = result_.prototype_of(object);
   if (prototype.objects.empty()) return {};
@@ -346,15 +368,31 @@ Bounds Compiler::bounds_of(const SceneObject& object) const {
 
 }  // namespace
 
-CompiledScene compile(std::span<const Entity> entities, Precision precision, const Workers& workers,
-                      const PrimitiveLimit& limit) {
-  FlatScene flat = flatten(entities, precision, workers, limit);
+CompiledScene compile_some(std::span<const Entity> entities, std::span<const std::uint32_t> places,
+                           Instancing instancing, const Instancing::Count& count,
+                           std::span<const Prototype> earlier, Precision precision,
+                           const Workers& workers, const PrimitiveLimit& limit) {
+  std::vector<const EntityNode*> shared_nodes = instancing.shared_nodes();
+  FlatScene flat =
+      flatten(entities, places, std::move(instancing), count, precision, workers, limit);
   const bool refers_to_entities = precision == Precision::exact || !flat.instances.empty();
-  CompiledScene result = Compiler(std::move(flat), precision, workers).compile();
+  CompiledScene result = Compiler(std::move(flat), earlier, precision, workers).compile();
+  result.shared_nodes = std::move(shared_nodes);
   if (refers_to_entities) {
-    for (const Entity& entity : entities) result.entities.push_back(entity.shared_node());
+    for (const std::uint32_t place : places)
+      result.stores[0]->entities.push_back(entities[place].shared_node());
   }
   return result;
+}
+
+CompiledScene compile(std::span<const Entity> entities, Precision precision, const Workers& workers,
+                      const PrimitiveLimit& limit) {
+  std::vector<std::uint32_t> places(entities.size());
+  std::iota(places.begin(), places.end(), 0u);
+  Instancing instancing(entities);
+  const Instancing::Count count = instancing.count(entities, PrimitiveLimit::max_numbered);
+  return compile_some(entities, places, std::move(instancing), count, {}, precision, workers,
+                      limit);
 }
 
 }  // namespace crt::core

@@ -73,14 +73,14 @@ class Duplicates {
     return object.is_csg() ? scene_.programs[object.program].leaf_count() : 1;
   }
   /// Drops equal children of nodes. Returns the class of what is left.
-  std::uint32_t reduce(const CsgProgram& program);
+  std::uint32_t reduce(const CsgProgram& program, std::uint32_t first_program_leaf);
   std::uint32_t class_of(std::vector<std::uint32_t> signature) {
     const auto [entry, added] = classes_.try_emplace(std::move(signature), next_class_);
     if (added) ++next_class_;
     return entry->second;
   }
   void compact();
-  void compact(CsgProgram& program);
+  void compact(CsgProgram& program, std::uint32_t first_program_leaf);
 
   FlatScene& scene_;
   std::span<const Leaf> leaves_;
@@ -168,23 +168,24 @@ void Duplicates::choose() {
   for (std::uint32_t i = 0; i < scene_.materials.size(); ++i) {
     looks.push_back(lets_light_in(*scene_.materials[i]) ? i : opaque);
   }
-  const auto look_of = [&](const Leaf& leaf) {
-    const auto* const first = looks.data() + leaf.material;
-    const auto* const end = first + leaf.material_count();
-    return std::all_of(first, end, [&](std::uint32_t look) { return look == opaque; })
-               ? opaque
-               : leaf.material;
+  const auto look_of = [&](std::uint32_t leaf) {
+    const std::uint32_t material = scene_.leaves[leaf].material;
+    const auto* const first = looks.data() + material;
+    const auto* const end = first + leaves_[leaf].material_count();
+    return std::all_of(first, end, [&](std::uint32_t look) { return look == opaque; }) ? opaque
+                                                                                       : material;
   };
   std::map<std::vector<std::uint32_t>, bool> seen;
   std::erase_if(scene_.objects, [&](const SceneObject& object) {
     workers_.poll_at(object.first_leaf);
     if (!is_involved(object)) return false;
     std::vector<std::uint32_t> key = {
-        object.is_csg() ? reduce(scene_.programs[object.program]) : equal_[object.first_leaf],
+        object.is_csg() ? reduce(scene_.programs[object.program], object.first_leaf)
+                        : equal_[object.first_leaf],
         object.passed_by};
     const std::uint32_t end = object.first_leaf + leaf_count(object);
     for (std::uint32_t leaf = object.first_leaf; leaf < end; ++leaf) {
-      if (keeps_leaf_[leaf]) key.push_back(look_of(leaves_[leaf]));
+      if (keeps_leaf_[leaf]) key.push_back(look_of(leaf));
     }
     if (seen.try_emplace(std::move(key), true).second) return false;
     std::fill(keeps_leaf_.begin() + object.first_leaf, keeps_leaf_.begin() + end, false);
@@ -192,7 +193,7 @@ void Duplicates::choose() {
   });
 }
 
-std::uint32_t Duplicates::reduce(const CsgProgram& program) {
+std::uint32_t Duplicates::reduce(const CsgProgram& program, std::uint32_t first_program_leaf) {
   const std::vector<CsgNode>& nodes = program.nodes;
   // The children of each node are side by side, those of the first node first.
   std::vector<std::uint32_t> ends(nodes.size() + 1, 0);
@@ -202,7 +203,7 @@ std::uint32_t Duplicates::reduce(const CsgProgram& program) {
   std::vector<Child> children(ends.back());
   std::vector<std::uint32_t> next(ends.begin(), ends.end() - 1);
   for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
-    children[next[program.leaf_parents[i]]++] = {equal_[program.first_leaf + i], i};
+    children[next[program.leaf_parents[i]]++] = {equal_[first_program_leaf + i], i};
   }
   std::vector<bool> drops_node(nodes.size(), false);
   std::uint32_t equal = 0;
@@ -220,7 +221,7 @@ std::uint32_t Duplicates::reduce(const CsgProgram& program) {
       first_leaf = std::min(first_leaf, child.first_leaf);
       if (signature.size() > 1 && signature.back() == child.equal) {
         if (child.node == invalid_index) {
-          keeps_leaf_[program.first_leaf + child.first_leaf] = false;
+          keeps_leaf_[first_program_leaf + child.first_leaf] = false;
         } else {
           drops_node[child.node] = true;
         }
@@ -235,25 +236,30 @@ std::uint32_t Duplicates::reduce(const CsgProgram& program) {
     if (drops_node[nodes[node].parent]) drops_node[node] = true;
   }
   for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
-    if (drops_node[program.leaf_parents[i]]) keeps_leaf_[program.first_leaf + i] = false;
+    if (drops_node[program.leaf_parents[i]]) keeps_leaf_[first_program_leaf + i] = false;
   }
   return equal;
 }
 
 void Duplicates::compact() {
   std::vector<CsgProgram> programs;
+  std::vector<std::uint32_t> kept_programs(scene_.programs.size() + 1, 0);  // before each
   for (SceneObject& object : scene_.objects) {
     if (!object.is_csg()) continue;
     CsgProgram program = std::move(scene_.programs[object.program]);
+    compact(program, object.first_leaf);
     object.first_leaf += static_cast<std::uint32_t>(
         std::find(keeps_leaf_.begin() + object.first_leaf, keeps_leaf_.end(), true) -
         (keeps_leaf_.begin() + object.first_leaf));
-    compact(program);
+    const std::uint32_t number = object.program;
     object.program = no_program;
-    if (program.leaf_count() == 1) continue;
-    object.program = static_cast<std::uint32_t>(programs.size());
-    programs.push_back(std::move(program));
+    if (program.leaf_count() > 1) {
+      object.program = static_cast<std::uint32_t>(programs.size());
+      programs.push_back(std::move(program));
+    }
+    kept_programs[number + 1] = static_cast<std::uint32_t>(programs.size());
   }
+  for (EntityEnds& ends : scene_.entity_ends) ends.program = kept_programs[ends.program];
   scene_.programs = std::move(programs);
   // Leaves move up.
   std::vector<std::uint32_t> places(leaves_.size(), 0);
@@ -262,24 +268,24 @@ void Duplicates::compact() {
     places[leaf] = count;
     if (keeps_leaf_[leaf]) scene_.leaves[count++] = scene_.leaves[leaf];
   }
+  for (EntityEnds& ends : scene_.entity_ends)
+    ends.leaf = ends.leaf < places.size() ? places[ends.leaf] : count;
   scene_.leaves.resize(count);
   scene_.programs_of_leaves.assign(count, no_program);
   for (SceneObject& object : scene_.objects) {
     if (object.is_instance()) continue;
     object.first_leaf = places[object.first_leaf];
     if (!object.is_csg()) continue;
-    CsgProgram& program = scene_.programs[object.program];
-    program.first_leaf = object.first_leaf;
-    std::fill_n(scene_.programs_of_leaves.begin() + object.first_leaf, program.leaf_count(),
+    std::fill_n(scene_.programs_of_leaves.begin() + object.first_leaf, leaf_count(object),
                 object.program);
   }
 }
 
-void Duplicates::compact(CsgProgram& program) {
+void Duplicates::compact(CsgProgram& program, std::uint32_t first_program_leaf) {
   std::vector<std::uint32_t> leaf_parents;
   std::vector<bool> keeps(program.nodes.size(), false);
   for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
-    if (!keeps_leaf_[program.first_leaf + i]) continue;
+    if (!keeps_leaf_[first_program_leaf + i]) continue;
     leaf_parents.push_back(program.leaf_parents[i]);
     keeps[program.leaf_parents[i]] = true;
   }

@@ -16,7 +16,8 @@ namespace crt::core {
 /// if they are made of the same materials, or of materials that let no light through.
 ///
 /// `leaves` and `faces` are the scene's, with their surfaces numbered. If this returns true,
-/// something was removed, and they do not belong to the scene any more. It takes O(n log n), and
+/// something was removed, and they do not belong to the scene any more. FlatScene::entity_ends are
+/// kept unless an object was removed, as then an entity depends on others. It takes O(n log n), and
 /// O(n) where no two leaves begin with the same surface.
 bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves,
                        std::span<const FaceSurface> faces, const Workers& workers = {});

@@ -8,6 +8,7 @@
 
 #include "core/compile/grouping.hpp"
 #include "core/compile/instancing.hpp"
+#include "core/compile/material_numbering.hpp"
 #include "core/compile/part.hpp"
 #include "core/compile/surface_table.hpp"
 #include "core/geometry/mesh/mesh.hpp"
@@ -25,7 +26,9 @@ class Flattening {
  public:
   Flattening(Precision precision, const Workers& workers)
       : exact_(precision == Precision::exact), workers_(workers) {}
-  FlatScene flatten(std::span<const Entity> entities, const PrimitiveLimit& limit);
+  FlatScene flatten(std::span<const Entity> entities, std::span<const std::uint32_t> places,
+                    Instancing instancing, const Instancing::Count& count,
+                    const PrimitiveLimit& limit);
   FlatScene flatten(const PrototypeSource& prototype);
 
  private:
@@ -51,11 +54,7 @@ class Flattening {
   std::uint32_t placement_number(const TransformChain* to_world);
   /// Returns the material that a part was given, or null.
   static const SharedMaterial* material_of(const Part& part, const Primitive& primitive);
-  const SharedMaterial& default_material();
-  /// Returns the number of a material, or of the default one.
-  std::uint32_t material_number(const SharedMaterial* material);
-  /// Returns the number of the default material before those of facets.
-  std::uint32_t facet_materials(const FacetAttributes& facets);
+  FlatScene take_result();
 
   bool exact_;
   Workers workers_;
@@ -67,12 +66,8 @@ class Flattening {
   std::uint32_t program_ = no_program;  ///< that leaves are added to
   Transform last_map_;                  ///< of the last placement
   bool last_is_all_ = true;             ///< whether last_map_ is all of it
-  std::unordered_map<const Material*, std::uint32_t> material_numbers_;
-  std::unordered_map<const FacetAttributes*, std::uint32_t> facet_materials_;
+  MaterialNumbering materials_;
   std::map<std::pair<const EntityNode*, const Material*>, std::uint32_t> prototype_numbers_;
-  const Material* last_material_ = nullptr;
-  std::uint32_t last_material_number_ = 0;
-  std::optional<SharedMaterial> default_material_;
   // These are reused from one entity to the next.
   std::vector<Pending> stack_;
   std::vector<Part> open_;
@@ -80,26 +75,39 @@ class Flattening {
   std::vector<Part> surfaces_;
 };
 
-FlatScene Flattening::flatten(std::span<const Entity> entities, const PrimitiveLimit& limit) {
-  instancing_ = Instancing(entities);
-  count_ = instancing_.count(entities, PrimitiveLimit::max_numbered);
+FlatScene Flattening::take_result() {
+  result_.materials = materials_.take_materials();
+  result_.default_material = materials_.default_number();
+  result_.count = count_;
+  return std::move(result_);
+}
+
+FlatScene Flattening::flatten(std::span<const Entity> entities,
+                              std::span<const std::uint32_t> places, Instancing instancing,
+                              const Instancing::Count& count, const PrimitiveLimit& limit) {
+  instancing_ = std::move(instancing);
+  count_ = count;
   limit.check(count_);
   std::uint64_t leaves = 0;
-  for (const Entity& entity : entities) leaves += entity.node().leaf_count;
+  for (const std::uint32_t place : places) leaves += entities[place].node().leaf_count;
   leaves = std::min(leaves, count_.primitives);
   result_.leaves.reserve(leaves);
   result_.programs_of_leaves.reserve(leaves);
-  result_.objects.reserve(entities.size());
-  result_.instances.reserve(count_.instances);
+  result_.objects.reserve(places.size());
+  result_.entity_ends.reserve(places.size());
   result_.placements.push_back(nullptr);
-  for (std::size_t i = 0; i < entities.size(); ++i) {
-    if (entities[i].is_empty()) continue;
-    const auto place = static_cast<std::uint32_t>(i);
-    const Part part{.node = &entities[i].node(), .id = place, .part_id = place};
-    passed_by_ = kinds_that_pass(entities[i]);
-    add_entity(part.unwrapped(result_.transforms), limit);
+  for (const std::uint32_t place : places) {
+    const Entity& entity = entities[place];
+    if (!entity.is_empty()) {
+      const Part part{.node = &entity.node(), .id = place, .part_id = place};
+      passed_by_ = kinds_that_pass(entity);
+      add_entity(part.unwrapped(result_.transforms), limit);
+    }
+    const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+    result_.entity_ends.push_back({size(result_.leaves), size(result_.objects),
+                                   size(result_.programs), size(result_.instances), 0});
   }
-  return std::move(result_);
+  return take_result();
 }
 
 FlatScene Flattening::flatten(const PrototypeSource& prototype) {
@@ -107,7 +115,7 @@ FlatScene Flattening::flatten(const PrototypeSource& prototype) {
   result_.placements.push_back(nullptr);
   const Part part{.node = prototype.node, .material = prototype.material};
   add_group(std::span(&part, 1));
-  return std::move(result_);
+  return take_result();
 }
 
 void Flattening::add_entity(const Part& entity, const PrimitiveLimit& limit) {
@@ -173,6 +181,7 @@ void Flattening::add_solids(const PrimitiveLimit& limit) {
     for (const Part& part : group) {
       if (!instancing_.is_shared(*part.node)) continue;
       count_.primitives += part.node->primitive_count;
+      result_.expanded_primitives += part.node->primitive_count;
       limit.check(count_);
     }
     add_group(group);
@@ -191,7 +200,8 @@ void Flattening::add_instance(const Part& part) {
                                .entity_id = part.id,
                                .part_id = part.part_id,
                                .user = part.user.value_or(0),
-                               .id_is_of_all = part.id_is_final});
+                               .id_is_of_all = part.id_is_final,
+                               .has_part_id = part.has_part_id});
 }
 
 std::uint32_t Flattening::prototype_number(const Part& part) {
@@ -213,7 +223,6 @@ void Flattening::add_group(std::span<const Part> parts) {
   } else {
     object.program = program_ = static_cast<std::uint32_t>(result_.programs.size());
     CsgProgram program;
-    program.first_leaf = object.first_leaf;
     build_program(parts, program);
     result_.programs.push_back(std::move(program));
   }
@@ -269,15 +278,16 @@ void Flattening::add_leaf(const Part& part, bool complemented) {
   result_.leaves.push_back(
       {.primitive = &primitive,
        .placement = placement_number(part.to_world),
-       .material = has_materials ? facet_materials(*facets) : material_number(material),
+       .material = has_materials ? materials_.number(*facets) : materials_.number(material),
        .entity_id = part.id,
        .part_id = part.part_id,
        .user = part.user.value_or(0),
        .complemented = complemented,
        .has_materials = has_materials,
-       .takes_entity_id = is_prototype_ && !part.id_is_final,
-       .takes_part_id = is_prototype_ && !part.has_part_id,
-       .takes_user = is_prototype_ && !part.user});
+       .is_mesh = std::holds_alternative<Mesh>(primitive),
+       .takes_entity_id = !part.id_is_final,
+       .takes_part_id = !part.has_part_id,
+       .takes_user = !part.user});
   result_.programs_of_leaves.push_back(program_);
 }
 
@@ -304,38 +314,13 @@ const SharedMaterial* Flattening::material_of(const Part& part, const Primitive&
   return own ? &*own : part.material;
 }
 
-const SharedMaterial& Flattening::default_material() {
-  if (!default_material_) default_material_.emplace(Material{});
-  return *default_material_;
-}
-
-std::uint32_t Flattening::facet_materials(const FacetAttributes& facets) {
-  const auto [entry, added] =
-      facet_materials_.try_emplace(&facets, static_cast<std::uint32_t>(result_.materials.size()));
-  if (added) {
-    result_.materials.push_back(default_material());
-    result_.materials.insert(result_.materials.end(), facets.materials().begin(),
-                             facets.materials().end());
-  }
-  return entry->second;
-}
-
-std::uint32_t Flattening::material_number(const SharedMaterial* material) {
-  if (material == nullptr) material = &default_material();
-  if (&**material == last_material_) return last_material_number_;
-  const auto [entry, added] = material_numbers_.try_emplace(
-      &**material, static_cast<std::uint32_t>(result_.materials.size()));
-  if (added) result_.materials.push_back(*material);
-  last_material_ = &**material;
-  last_material_number_ = entry->second;
-  return entry->second;
-}
-
 }  // namespace
 
-FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers,
-                  const PrimitiveLimit& limit) {
-  return Flattening(precision, workers).flatten(entities, limit);
+FlatScene flatten(std::span<const Entity> entities, std::span<const std::uint32_t> places,
+                  Instancing instancing, const Instancing::Count& count, Precision precision,
+                  const Workers& workers, const PrimitiveLimit& limit) {
+  return Flattening(precision, workers)
+      .flatten(entities, places, std::move(instancing), count, limit);
 }
 
 FlatScene flatten(const PrototypeSource& prototype, Precision precision, const Workers& workers) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/compile/compile.hpp"
+#include "core/compile/instancing.hpp"
 #include "core/compile/part.hpp"
 #include "core/compile/primitive_limit.hpp"
 #include "core/tasks/workers.hpp"
@@ -20,7 +21,8 @@ struct LeafSource {
   std::uint32_t part_id = 0;
   std::uint64_t user = 0;
   bool complemented = false;
-  bool has_materials = false;    ///< of facets, from the one behind `material` on
+  bool has_materials = false;  ///< of facets, which come next
+  bool is_mesh = false;
   bool takes_entity_id = false;  ///< as in Leaf
   bool takes_part_id = false;
   bool takes_user = false;
@@ -41,6 +43,10 @@ struct FlatScene {
   std::vector<CsgProgram>
       programs;  ///< nodes and parents of leaves only; an AND needs all_children
   std::vector<SharedMaterial> materials;
+  std::uint32_t default_material = invalid_index;
+  std::vector<EntityEnds> entity_ends;
+  Instancing::Count count;                ///< of all entities of the scene
+  std::uint64_t expanded_primitives = 0;  ///< of these, in copies that touch others
   std::vector<Instance> instances;
   std::vector<PrototypeSource> prototypes;
 };
@@ -48,10 +54,12 @@ struct FlatScene {
 /// Marks a node that is an AND until its children are counted.
 inline constexpr std::uint32_t all_children = 0xffffffffu;
 
-/// Walks through the entities without recursion, however deep they are. The entities must outlive
-/// the placements. Throws Error (limit) if there are too many primitives.
-FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers,
-                  const PrimitiveLimit& limit);
+/// Walks through those entities that have these places in a scene, without recursion, however deep
+/// they are. The entities must outlive the placements. `instancing` and `count` are those of all.
+/// Throws Error (limit) if the scene has too many primitives.
+FlatScene flatten(std::span<const Entity> entities, std::span<const std::uint32_t> places,
+                  Instancing instancing, const Instancing::Count& count, Precision precision,
+                  const Workers& workers, const PrimitiveLimit& limit);
 /// Makes one object of a prototype, in its own space.
 FlatScene flatten(const PrototypeSource& prototype, Precision precision, const Workers& workers);
 

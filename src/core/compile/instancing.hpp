@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <unordered_map>
+#include <vector>
 
 #include "core/compile/part.hpp"
 #include "crt/entity.hpp"
@@ -29,13 +30,24 @@ class Instancing {
     return !uses_.empty() && uses_.find(&node) != uses_.end();
   }
 
+  /// Returns the nodes that are shared, sorted by where they are in memory.
+  std::vector<const EntityNode*> shared_nodes() const;
+
   /// A Count is of what is compiled.
   struct Count {
     std::uint64_t primitives = 0;  ///< of shared nodes once
     std::uint64_t instances = 0;   ///< the uses of shared nodes
+    std::uint64_t in_several =
+        0;  ///< primitives of entities that have several; nothing else is shared
   };
   /// Counts what is compiled of entities. It stops at more than `most` of either.
   Count count(std::span<const Entity> entities, std::uint64_t most) const;
+
+  /// Changes the count of a scene in which nothing is shared by one entity that comes or goes.
+  static void add(const EntityNode& entity, Count& count);
+  static void remove(const EntityNode& entity, Count& count);
+  /// Returns whether some nodes may be worth sharing in a scene of which this was counted.
+  static bool may_share(const Count& count);
 
  private:
   /// Holds the nodes that are shared, and how often they are used.

@@ -19,4 +19,7 @@ std::uint64_t primitive_bytes(const CompiledScene& scene);
 /// Returns the bytes of programs and their trees.
 std::uint64_t csg_bytes(const CompiledScene& scene);
 
+/// Returns the bytes of what encloses objects.
+std::uint64_t solid_bytes(const CompiledScene& scene);
+
 }  // namespace crt::core

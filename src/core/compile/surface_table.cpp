@@ -106,7 +106,7 @@ class Numbering {
         workers_(workers),
         hashed_(faces.size()) {}
 
-  void run() {
+  std::vector<HashedSurface> run() {
     for_ranges(leaves_.size(), items_for_a_thread, workers_,
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t leaf = begin; leaf < end; ++leaf)
@@ -126,6 +126,12 @@ class Numbering {
             number_equal_hashes(std::span<const HashedFace>(hashed_).subspan(first, begin - first));
           }
         });
+    std::vector<HashedSurface> surfaces;
+    surfaces.reserve(hashed_.size());
+    constexpr int half = 32;
+    for (const HashedFace& face : hashed_)
+      surfaces.push_back({static_cast<std::uint32_t>(face.hash >> half), face.face});
+    return surfaces;
   }
 
  private:
@@ -271,9 +277,21 @@ std::uint64_t CanonicalSurface::hash() const {
   return hash;
 }
 
-void number_surfaces(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
-                     std::span<FaceSurface> faces, const Workers& workers) {
-  Numbering(leaves, programs, faces, workers).run();
+std::vector<HashedSurface> number_surfaces(std::span<const Leaf> leaves,
+                                           std::span<const std::uint32_t> programs,
+                                           std::span<FaceSurface> faces, const Workers& workers) {
+  return Numbering(leaves, programs, faces, workers).run();
+}
+
+bool are_on_one_surface(const Leaf& a, std::uint32_t face_of_a, const Leaf& b,
+                        std::uint32_t face_of_b) {
+  const auto key_of = [](const Leaf& leaf, std::uint32_t face) {
+    return canonical_surface(leaf.shape->surface(face), *leaf.placement).key;
+  };
+  if (key_of(a, face_of_a) != key_of(b, face_of_b)) return false;
+  if (a.exact == nullptr) return true;
+  return compared(in_world(a.exact->surface(face_of_a), *a.placement),
+                  in_world(b.exact->surface(face_of_b), *b.placement)) == 0;
 }
 
 }  // namespace crt::core

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/compile/compile.hpp"
 #include "core/csg/program.hpp"
 #include "core/geometry/placement.hpp"
 #include "core/geometry/surface.hpp"
@@ -35,8 +36,13 @@ CanonicalSurface canonical_surface(const Surface& surface, const Placement& plac
 /// program of each leaf, or no_program. In the exact tier surfaces whose canonical forms are equal
 /// are one only if they are equal without any rounding. It takes O(n log n) on as many threads as
 /// `workers` says.
-void number_surfaces(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
-                     std::span<FaceSurface> faces, const Workers& workers);
+std::vector<HashedSurface> number_surfaces(std::span<const Leaf> leaves,
+                                           std::span<const std::uint32_t> programs,
+                                           std::span<FaceSurface> faces, const Workers& workers);
+
+/// Returns whether two faces are on one surface, as number_surfaces() finds it.
+bool are_on_one_surface(const Leaf& a, std::uint32_t face_of_a, const Leaf& b,
+                        std::uint32_t face_of_b);
 
 inline constexpr std::uint32_t no_program = 0xffffffffu;
 

@@ -64,7 +64,7 @@ void find_unlisted_faces(std::span<Leaf> leaves, const Workers& workers) {
     }
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    leaf.unlisted = std::make_unique<UnlistedFaces>();
+    leaf.unlisted = std::make_shared<UnlistedFaces>();
     leaf.unlisted->begin = leaf.shape->listed_face_count();
     leaf.unlisted->some = std::move(faces);
     leaf.face_count = leaf.unlisted->begin + static_cast<std::uint32_t>(leaf.unlisted->some.size());

@@ -22,13 +22,12 @@ constexpr auto is_opened_later = [](const auto& a, const auto& b) {
 
 }  // namespace
 
-CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
-                             std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-                             CsgWorkspace& workspace, bool first_is_enough,
-                             const InstanceFrame* frame)
-    : program_(program),
-      leaves_(leaves.subspan(program.first_leaf, program.leaf_count())),
-      face_surfaces_(face_surfaces),
+CsgEvaluation::CsgEvaluation(const CsgObject& object, const WorldRay& ray, CsgWorkspace& workspace,
+                             bool first_is_enough, const InstanceFrame* frame)
+    : program_(object.program),
+      leaves_(object.leaves),
+      first_leaf_(object.first_leaf),
+      face_surfaces_(object.faces),
       ray_(ray),
       work_(workspace),
       frame_(frame),
@@ -39,6 +38,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
       first_stamp_(++workspace.stamp_),
       exact_(leaves_[0].exact != nullptr),
       first_is_enough_(first_is_enough) {
+  const CsgProgram& program = object.program;
   if (!program.paths.empty()) {
     paths_.emplace(program.paths, work_.paths_, first_stamp_);
   } else if (work_.nodes_.size() < program.nodes.size()) {
@@ -164,7 +164,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
     placement_ = leaf.placement;
     object_ray_ = in_place.placement.to_object(ray_.origin, ray_.direction);
   }
-  object_ray_.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start);
+  object_ray_.start = start_on_leaf(leaf, first_leaf_ + index, face_surfaces_, ray_.start);
   // In the exact tier crossings that are near to each other are all opened, to be put in order.
   bool inside = first_is_enough_ && leaf.has_many_faces() && !exact_
                     ? gather_piece(index, in_place, enter)

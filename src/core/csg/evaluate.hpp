@@ -183,10 +183,8 @@ class CsgEvaluation {
  public:
   /// With `first_is_enough` it is rarely asked for more than one crossing. An instance has a frame.
   /// Leaf and surface that its ray starts on are then those of the prototype.
-  CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
-                std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
-                CsgWorkspace& workspace, bool first_is_enough = false,
-                const InstanceFrame* frame = nullptr);
+  CsgEvaluation(const CsgObject& object, const WorldRay& ray, CsgWorkspace& workspace,
+                bool first_is_enough = false, const InstanceFrame* frame = nullptr);
 
   /// Returns whether the start of the ray (just after t_min) is inside the object.
   bool starts_inside() const { return starts_inside_; }
@@ -271,6 +269,7 @@ class CsgEvaluation {
 
   const CsgProgram& program_;
   std::span<const Leaf> leaves_;  ///< of the object
+  std::uint32_t first_leaf_;      ///< the number of the first of them in the scene
   std::span<const FaceSurface> face_surfaces_;
   WorldRay ray_;
   CsgWorkspace& work_;

@@ -99,7 +99,7 @@ void CsgEvaluation::gather_near() {
     const std::uint32_t index = work_.met_[crossing.item].leaf;
     const Leaf& leaf = leaves_[index];
     return LeafOnRay{placed(leaf),
-                     start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start)};
+                     start_on_leaf(leaf, first_leaf_ + index, face_surfaces_, ray_.start)};
   };
   if (!is_one && is_known && sort_exactly(crossings, leaf_on_ray, ray_, work_.escalations)) {
     near.clear();

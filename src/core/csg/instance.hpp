@@ -25,6 +25,7 @@ struct Instance {
   std::uint32_t part_id = 0;    ///< of such leaves
   std::uint64_t user = 0;       ///< of such leaves
   bool id_is_of_all = false;    ///< whether entity_id is that of all leaves
+  bool has_part_id = false;     ///< whether part_id is not the entity's place in the scene
 };
 
 /// A ComposedPlacement is where a leaf of a prototype lies for one of the instances.

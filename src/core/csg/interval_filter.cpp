@@ -22,8 +22,7 @@ std::unique_ptr<const PlacedSolid> enclosed(const Leaf& leaf) {
 
 }  // namespace
 
-IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
-                               std::span<const FaceSurface> faces) {
+IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves) {
   if (!program.paths.empty()) return;
   std::vector<EnclosedLeaf> enclosed_leaves;
   enclosed_leaves.reserve(leaves.size());
@@ -39,11 +38,6 @@ IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> 
     enclosed_leaves.push_back({std::move(solid), leaf.complemented});
   }
   leaves_ = std::move(enclosed_leaves);
-  first_face_ = leaves.front().first_face;
-  end_face_ = leaves.back().first_face + leaves.back().face_count;
-  for (std::uint32_t face = first_face_; face < end_face_; ++face) {
-    if (faces[face].surface < first_face_) shares_surfaces_ = true;
-  }
 }
 
 std::size_t IntervalFilter::bytes() const {
@@ -59,23 +53,22 @@ class IntervalFilter::Search {
   using Mask = MaskOf<Real>;
 
   Search(const IntervalFilter& filter, const IntervalFilterRays<Real>& rays,
-         const CsgProgram& program, NearLeavesWorkspace& workspace, const RaySteps& steps)
+         const CsgObject& object, NearLeavesWorkspace& workspace, const RaySteps& steps)
       : filter_(filter),
         rays_(rays),
         lines_(rays.lines, rays.limits, lanes_of_mask<Real>(rays.asked)),
-        near_(filter, program, lines_, rays.asked, workspace, steps),
+        near_(filter, object.program, lines_, rays.asked, workspace, steps),
+        object_(object),
         steps_(steps) {}
 
-  [[gnu::always_inline]] BoundaryTransitions<Real> find(std::span<const Leaf> leaves,
-                                                        std::span<const FaceSurface> faces,
-                                                        std::uint32_t first_leaf) {
+  [[gnu::always_inline]] BoundaryTransitions<Real> find() {
     gather(-least(select(lines_.asked(), -lines_.lines().certain_from, broadcast<Real>(infinity))));
     if (is_too_much()) return changes_;
     Mask asked = lines_.asked();
     for (std::uint32_t starting = rays_.on_surface & rays_.asked; starting != 0;
          starting &= starting - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(starting));
-      if (!set_start(rays_.starts[lane], lane, leaves, faces, first_leaf)) {
+      if (!set_start(rays_.starts[lane], lane)) {
         asked = asked && !(EnclosedLines<Real>::lane_bit(lane));
       }
     }
@@ -164,20 +157,22 @@ class IntervalFilter::Search {
 
   /// Makes the interval of the leaf that a ray starts on agree with that start, which settles where
   /// the ray meets the surface. Returns false if that does not follow from what is known here.
-  bool set_start(const StartPoint& start, std::uint32_t lane, std::span<const Leaf> leaves,
-                 std::span<const FaceSurface> faces, std::uint32_t first_leaf) {
-    const std::uint32_t index = start.leaf - first_leaf;
+  bool set_start(const StartPoint& start, std::uint32_t lane) {
+    const std::span<const Leaf> leaves = object_.leaves;
+    const std::uint32_t index = start.leaf - object_.first_leaf;
+    const std::uint32_t end_face = leaves.back().first_face + leaves.back().face_count;
     const bool is_named_here =
-        start.surface >= filter_.first_face_ && start.surface < filter_.end_face_;
-    if (index >= leaves.size()) return !is_named_here && !filter_.shares_surfaces_;
+        start.surface >= leaves.front().first_face && start.surface < end_face;
+    if (index >= leaves.size()) return !is_named_here && !object_.shares_surfaces;
     const Leaf& leaf = leaves[index];
-    const bool is_shared = leaf.surface_of(start.face, faces).shared != FaceSurface::not_shared;
+    const bool is_shared =
+        leaf.surface_of(start.face, object_.faces).shared != FaceSurface::not_shared;
     if (is_shared || !lines_.starts_at_0(lane)) return false;
     const std::span<NearLeaf<Real>> near = near_.leaves();
     const auto found = std::find_if(near.begin(), near.end(),
                                     [&](const auto& other) { return other.leaf == index; });
     const Mask ray = EnclosedLines<Real>::lane_bit(lane);
-    if (start_on_leaf(leaf, start.leaf, faces, start).side == Side::outside) {
+    if (start_on_leaf(leaf, start.leaf, object_.faces, start).side == Side::outside) {
       if (found == near.end()) return true;
       // Where the ray grazes the leaf, the bounds on the errors of the leaf's crossings at the
       // start and before it reach so far ahead that others may be at one place with them.
@@ -293,6 +288,7 @@ class IntervalFilter::Search {
   const IntervalFilterRays<Real>& rays_;
   EnclosedLines<Real> lines_;
   NearLeaves<Real> near_;
+  const CsgObject& object_;
   const RaySteps& steps_;
   BoundaryTransitions<Real> changes_;
   std::size_t batch_ = 8;
@@ -301,20 +297,18 @@ class IntervalFilter::Search {
 
 template <class Real>
 BoundaryTransitions<Real> IntervalFilter::first_transitions(const IntervalFilterRays<Real>& rays,
-                                                            const CsgProgram& program,
-                                                            std::span<const Leaf> leaves,
-                                                            std::span<const FaceSurface> faces,
+                                                            const CsgObject& object,
                                                             NearLeavesWorkspace& workspace,
                                                             const RaySteps& steps) const {
-  Search<Real> search(*this, rays, program, workspace, steps);
-  return search.find(leaves, faces, program.first_leaf);
+  Search<Real> search(*this, rays, object, workspace, steps);
+  return search.find();
 }
 
 template BoundaryTransitions<double> IntervalFilter::first_transitions(
-    const IntervalFilterRays<double>&, const CsgProgram&, std::span<const Leaf>,
-    std::span<const FaceSurface>, NearLeavesWorkspace&, const RaySteps&) const;
+    const IntervalFilterRays<double>&, const CsgObject&, NearLeavesWorkspace&,
+    const RaySteps&) const;
 template BoundaryTransitions<Lanes> IntervalFilter::first_transitions(
-    const IntervalFilterRays<Lanes>&, const CsgProgram&, std::span<const Leaf>,
-    std::span<const FaceSurface>, NearLeavesWorkspace&, const RaySteps&) const;
+    const IntervalFilterRays<Lanes>&, const CsgObject&, NearLeavesWorkspace&,
+    const RaySteps&) const;
 
 }  // namespace crt::core

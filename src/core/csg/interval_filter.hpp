@@ -28,6 +28,7 @@
 
 namespace crt::core {
 
+struct CsgObject;
 struct CsgProgram;
 struct FaceSurface;
 struct Leaf;
@@ -83,20 +84,17 @@ class IntervalFilter {
   /// Makes an empty filter, which is what other programs have.
   IntervalFilter() = default;
   /// Makes the filter of a program, or an empty one. `leaves` are those of the program.
-  IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
-                 std::span<const FaceSurface> faces);
+  IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves);
 
   bool empty() const { return leaves_.empty(); }
   /// Returns the bytes that it takes beside the object itself.
   std::size_t bytes() const;
 
   /// Finds the first crossings of the boundary with t_min < t <= limit that count, as CsgEvaluation
-  /// finds them. `leaves` are those of `program`, the filter's own.
+  /// finds them. The filter is that of the object's program.
   template <class Real>
   BoundaryTransitions<Real> first_transitions(const IntervalFilterRays<Real>& rays,
-                                              const CsgProgram& program,
-                                              std::span<const Leaf> leaves,
-                                              std::span<const FaceSurface> faces,
+                                              const CsgObject& object,
                                               NearLeavesWorkspace& workspace,
                                               const RaySteps& steps) const;
 
@@ -114,9 +112,6 @@ class IntervalFilter {
   };
 
   std::vector<EnclosedLeaf> leaves_;
-  std::uint32_t first_face_ = 0;  ///< in the scene
-  std::uint32_t end_face_ = 0;
-  bool shares_surfaces_ = false;  ///< with an object before it in the scene
 };
 
 }  // namespace crt::core

@@ -54,17 +54,14 @@ struct UnlistedFaces {
   std::uint32_t first_surface = 0;  ///< the number of the surface of face 0, if it were not listed
 };
 
-/// A Leaf is a primitive in its place.
+/// A Leaf is a primitive in its place. The scene owns what it points to.
 struct Leaf {
-  std::unique_ptr<const Shape> shape;
-  std::unique_ptr<const ExactShape>
-      exact;  ///< the shape in the exact tier; none in the standard one
-  const Placement* placement =
-      nullptr;  ///< shared by leaves that are placed alike; the scene owns it
+  const Shape* shape = nullptr;
+  const ExactShape* exact = nullptr;     ///< the shape in the exact tier; none in the standard one
+  const Placement* placement = nullptr;  ///< shared by leaves that are placed alike
   const void* family =
       nullptr;    ///< of its shape, which is neither complemented nor moved, nor in instances
   Bounds bounds;  ///< in the world, of what can matter of it
-  std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
   std::uint32_t part_id = 0;
   std::uint64_t user = 0;        ///< of Entity::with_user(), or 0
@@ -72,23 +69,23 @@ struct Leaf {
   std::uint32_t face_count = 0;  ///< how many of them are there
   /// A leaf of more faces than this has its shared faces in a list, if there are any.
   static constexpr std::uint32_t few_faces = 8;
-  std::unique_ptr<const SharedFaces> shared_faces;
-  std::unique_ptr<UnlistedFaces> unlisted;  ///< none if all faces are listed
+  std::shared_ptr<const SharedFaces> shared_faces;
+  std::shared_ptr<UnlistedFaces> unlisted;  ///< none if all faces are listed
   bool has_normals = false;                 ///< its facets have normals for shading
-  bool has_materials =
-      false;                  ///< its facets have materials of their own, which `material` precedes
+  bool has_materials = false;               ///< its facets have materials of their own
+  bool is_mesh = false;
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface
-  /// These say whether a prototype's leaf has the ids of each instance.
+  /// These say whether it has the ids of its entity, or a prototype's leaf those of each instance.
   bool takes_entity_id = false;
   bool takes_part_id = false;
   bool takes_user = false;
 
-  /// Returns the number of the material of a face.
-  std::uint32_t material_of(std::uint32_t face) const {
-    return has_materials ? material + shape->facet_attributes()->material(face) : material;
+  /// Returns by how much the number of a face's material is more than that of the leaf.
+  std::uint32_t material_place(std::uint32_t face) const {
+    return has_materials ? shape->facet_attributes()->material(face) : 0;
   }
-  /// Returns how many materials it has, from `material` on.
+  /// Returns how many materials it has: its own, and then those of its facets.
   std::uint32_t material_count() const {
     if (!has_materials) return 1;
     return 1 + static_cast<std::uint32_t>(shape->facet_attributes()->materials().size());
@@ -134,8 +131,6 @@ struct CsgProgram {
   std::vector<CsgNode> nodes;
   /// This has the node above each leaf, in the order of leaves.
   std::vector<std::uint32_t> leaf_parents;
-  /// The leaves of the object are this and the following ones of the scene.
-  std::uint32_t first_leaf = 0;
   HeavyPaths paths;  ///< of deep programs: what takes the place of walking up from node to node
   Bvh tree;          ///< over what of each leaf's box matters
   IntervalFilter filter;
@@ -148,6 +143,15 @@ struct CsgProgram {
   bool is_within(std::uint32_t index, const Leaf& leaf) const {
     return leaf_parents[index] == 0 && nodes[0].needed > 1 && !leaf.complemented;
   }
+};
+
+/// A CsgObject is a program with its leaves, which scenes that share it number differently.
+struct CsgObject {
+  const CsgProgram& program;
+  std::span<const Leaf> leaves;
+  std::uint32_t first_leaf;            ///< the number of the first of them in the scene
+  std::span<const FaceSurface> faces;  ///< of all leaves of the scene
+  bool shares_surfaces = false;        ///< with an object before it in the scene
 };
 
 }  // namespace crt::core

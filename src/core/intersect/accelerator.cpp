@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <span>
 
-#include "core/accel/embree_tree.hpp"
 #include "core/accel/space_order.hpp"
 #include "core/compile/leaf_of_hit.hpp"
 #include "core/compile/memory.hpp"
@@ -19,6 +18,11 @@ namespace crt::core {
 namespace {
 
 bool any_surface_is_shared(const CompiledScene& scene) {
+  const std::vector<FaceSurface>& faces = scene.face_surfaces;
+  const auto is_alone = [&](const FaceSurface& face) {
+    return face.surface == static_cast<std::size_t>(&face - faces.data());
+  };
+  if (std::all_of(faces.begin(), faces.end(), is_alone)) return false;
   std::vector<std::uint32_t> owners(scene.face_surfaces.size(), invalid_index);
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     const SceneObject& solid = scene.objects[object];
@@ -42,30 +46,12 @@ double margin_of(const Bounds& total) {
   return of_extent * largest_component(extents) + of_place * total.farthest();
 }
 
-std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Workers& workers) {
-  std::vector<std::uint32_t> enclosed(scene.leaves.size(), invalid_index);
-  const auto count = static_cast<std::uint32_t>(scene.objects.size());
-  for_ranges(count, items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const SceneObject& object = scene.objects[i];
-      if (object.is_instance()) continue;
-      const std::span<const Leaf> leaves = scene.leaves_of(object);
-      for (std::uint32_t k = 0; k < leaves.size(); ++k) {
-        const Leaf& leaf = leaves[k];
-        const bool holds = !object.is_csg() || scene.programs[object.program].is_within(k, leaf);
-        if (holds && leaf.shape->is_convex())
-          enclosed[object.first_leaf + k] = static_cast<std::uint32_t>(i);
-      }
-    }
-  });
-  return enclosed;
-}
-
 }  // namespace
 
-Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials,
+Accelerator::Accelerator(RecompiledScene recompiled, const Accelerator* earlier,
                          const Workers& workers)
-    : compiled_(std::move(compiled)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
+    : compiled_(std::move(recompiled.scene)),
+      objects_share_surfaces_(any_surface_is_shared(compiled_)) {
   Bounds total;
   std::vector<std::uint32_t> bounded;
   std::vector<std::uint32_t> unbounded;
@@ -81,21 +67,28 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
       unbounded.push_back(i);
     }
   }
-  sort_along_curve(compiled_, total, bounded, workers);
-  bounded_ = BoundingProxies(compiled_, bounded, workers);
-  unbounded_ = BoundingProxies(compiled_, unbounded, workers);
-  enclosed_ = enclosed_objects(compiled_, workers);
+  std::unique_ptr<const EarlierProxies> proxies;
+  std::vector<std::uint32_t> order;
+  if (earlier != nullptr) {
+    proxies = std::make_unique<const EarlierProxies>(earlier->proxies_for(recompiled));
+    order = order_of_earlier(*earlier, recompiled.earlier_objects, bounded, total, workers);
+  }
+  const bool is_tree_kept = !order.empty();
+  if (is_tree_kept) {
+    bounded = std::move(order);
+  } else {
+    sort_along_curve(compiled_, total, bounded, workers);
+  }
+  const EarlierProxies* const of_earlier = proxies.get();
+  bounded_ = BoundingProxies(compiled_, bounded, workers, of_earlier);
+  unbounded_ = BoundingProxies(compiled_, unbounded, workers, of_earlier);
+  keep_solids();
+  find_enclosed(earlier, recompiled.earlier_objects, workers);
   if (bounded.empty()) return;
   margin_ = margin_of(total);
   farthest_ = total.farthest();
-  isolated_ = isolated_objects(compiled_, materials, bounded, unbounded_, margin_, workers);
-  std::vector<Bounds> boxes;
-  boxes.reserve(bounded.size());
-  for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
-  tree_ = std::make_unique<EmbreeTree>(boxes, total, workers.stop);
-  if (boxes.size() > FlatBoxList::max_boxes) return;
-  for (Bounds& box : boxes) box = box.grown(margin_);
-  flat_box_list_ = FlatBoxList(boxes);
+  isolated_ = isolated_objects(compiled_, bounded, unbounded_, margin_, workers);
+  build_tree(bounded, total, earlier, is_tree_kept, workers);
 }
 
 Accelerator::~Accelerator() = default;
@@ -108,11 +101,8 @@ bool Accelerator::all_pass_by(const Bounds& box) const {
 
 MemoryUse Accelerator::memory() const {
   MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
-  for (const BoundingProxies* proxies : {&bounded_, &unbounded_}) {
-    use.tree += proxies->bytes();
-  }
-  use.tree += bytes_of(enclosed_) + bytes_of(isolated_) + flat_box_list_.bytes() +
-              (tree_ ? tree_->bytes() : 0);
+  use.tree = bytes_of(bounded_.list) + bytes_of(unbounded_.list) + solid_bytes(compiled_) +
+             bytes_of(enclosed_) + bytes_of(isolated_) + flat_box_list_.bytes() + tree_.bytes();
   return use;
 }
 
@@ -127,7 +117,7 @@ void Accelerator::prefetch_surface_points(std::span<const RayHit, packet_size> h
     if (is_own(hits[i])) __builtin_prefetch(&compiled_.leaves[hits[i].leaf].complemented);
   });
   for_each_ray(some, [&](std::size_t i) {
-    if (is_own(hits[i])) __builtin_prefetch(compiled_.leaves[hits[i].leaf].shape.get());
+    if (is_own(hits[i])) __builtin_prefetch(compiled_.leaves[hits[i].leaf].shape);
   });
 }
 

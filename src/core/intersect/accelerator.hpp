@@ -6,9 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "core/accel/embree_tree.hpp"
+#include "core/accel/box_tree.hpp"
 #include "core/accel/flat_box_list.hpp"
 #include "core/compile/compile.hpp"
+#include "core/compile/recompile.hpp"
 #include "core/intersect/answers.hpp"
 #include "core/intersect/bounding_proxy.hpp"
 #include "core/intersect/crossing_order.hpp"
@@ -24,9 +25,10 @@ namespace crt::core {
 /// Unbounded objects stay outside of the tree.
 class Accelerator {
  public:
-  /// Makes it of a scene with those materials, which the scene need not hold itself.
-  Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials,
-              const Workers& workers = {});
+  explicit Accelerator(CompiledScene compiled, const Workers& workers = {})
+      : Accelerator({std::move(compiled), {}}, nullptr, workers) {}
+  /// Makes it of a scene with objects from an earlier one, which may be null.
+  Accelerator(RecompiledScene recompiled, const Accelerator* earlier, const Workers& workers);
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
@@ -80,7 +82,7 @@ class Accelerator {
   const IntervalFilter* filter(std::uint32_t object) const {
     const SceneObject& solid = compiled_.objects[object];
     if (!solid.is_csg()) return nullptr;
-    const IntervalFilter& filter = compiled_.programs[solid.program].filter;
+    const IntervalFilter& filter = compiled_.program_of(solid).filter;
     return filter.empty() ? nullptr : &filter;
   }
   FaceSurface face_surface(const Leaf& leaf, std::uint32_t face) const {
@@ -174,9 +176,26 @@ class Accelerator {
   RayHit gather_coincident(const WorldRay& ray, const RayHit& nearest, PassingRays kind,
                            RayWorkspace& work) const;
 
+  /// Returns the numbers of bounded objects in the order of boxes of the earlier tree, and then
+  /// those that are to be added, or none if that tree is not worth keeping.
+  std::vector<std::uint32_t> order_of_earlier(const Accelerator& earlier,
+                                              std::span<const std::uint32_t> earlier_objects,
+                                              std::span<const std::uint32_t> bounded,
+                                              const Bounds& total, const Workers& workers) const;
+  /// Returns the proxies for a scene of which objects are from this one.
+  EarlierProxies proxies_for(const RecompiledScene& scene) const;
+  /// Fills in what is enclosed, from an earlier scene where that has it.
+  void find_enclosed(const Accelerator* earlier, std::span<const std::uint32_t> earlier_objects,
+                     const Workers& workers);
+  /// Gives what encloses objects to the store that these are in.
+  void keep_solids();
+  /// Builds the tree over the boxes of objects, of which an earlier one may have the first.
+  void build_tree(std::span<const std::uint32_t> bounded, const Bounds& total,
+                  const Accelerator* earlier, bool is_tree_kept, const Workers& workers);
+
   CompiledScene compiled_;
   BoundingProxies unbounded_;
-  BoundingProxies bounded_;  ///< in the order in which Embree numbers them
+  BoundingProxies bounded_;  ///< in the order of the tree's boxes
   /// Holds by leaf the object that is all within it; nothing if there is none, or if a line may
   /// leave the leaf and meet it again.
   std::vector<std::uint32_t> enclosed_;
@@ -185,9 +204,9 @@ class Accelerator {
   double margin_ = 0;
   double farthest_ = std::numeric_limits<double>::infinity();
   double largest_radius_ = 0;
-  std::vector<std::uint32_t> isolated_;     ///< by object: see isolated_objects()
-  std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
-  FlatBoxList flat_box_list_;               ///< takes its place if there are few boxes
+  std::vector<std::uint32_t> isolated_;  ///< by object: see isolated_objects()
+  BoxTree tree_;                         ///< empty if nothing is bounded
+  FlatBoxList flat_box_list_;            ///< takes its place if there are few boxes
   bool objects_share_surfaces_ =
       false;  ///< whether some surface has faces of several objects on it
   PassingRays kinds_that_pass_ = passing_none;

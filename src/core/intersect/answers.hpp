@@ -24,8 +24,11 @@ struct ContainingSolid {
   std::uint32_t leaf = invalid_index;
 };
 
+struct MaterialTable;
+
 /// An Opacity says which things let no light through.
 struct Opacity {
+  const MaterialTable* materials = nullptr;
   std::vector<bool> of_materials;
   std::vector<bool> of_objects;  ///< true for objects of opaque materials alone
 };

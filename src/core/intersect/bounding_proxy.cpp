@@ -45,10 +45,10 @@ struct Proxy {
 /// Takes the smallest sphere that has a CSG object within it, and a little more: crossings of other
 /// solids next to its surface are known less well.
 void bound_csg(const CompiledScene& scene, const SceneObject& object, Proxy& result) {
-  const CsgProgram& program = scene.programs[object.program];
+  const CsgProgram& program = scene.program_of(object);
   double smallest = infinity;
   for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
-    const Leaf& leaf = scene.leaves[program.first_leaf + i];
+    const Leaf& leaf = scene.leaves[object.first_leaf + i];
     if (!program.is_within(i, leaf)) continue;
     const std::optional<BoundingSphere> sphere = leaf.shape->bounding_sphere();
     if (!sphere) continue;
@@ -88,9 +88,39 @@ void bound_leaf(const CompiledScene& scene, std::uint32_t index, Proxy& result) 
   proxy.face_count = leaf.face_count;
 }
 
-Proxy proxy_of(const CompiledScene& scene, std::uint32_t index) {
-  const SceneObject& object = scene.objects[index];
+/// Returns a proxy of an earlier scene for what its object is in this one.
+BoundingProxy moved_proxy(const EarlierProxies& earlier, const CompiledScene& scene,
+                          std::uint32_t index) {
+  const std::uint32_t before = earlier.objects[index];
+  BoundingProxy proxy = *earlier.proxies[before];
+  if (earlier.keeps_numbers) {
+    if (proxy.leaf != nullptr)
+      proxy.leaf = scene.leaves.data() + (proxy.leaf - earlier.scene.leaves.data());
+    if (proxy.faces != nullptr) {
+      proxy.faces = scene.face_surfaces.data() + (proxy.faces - earlier.scene.face_surfaces.data());
+    }
+    return proxy;
+  }
+  proxy.object = index;
+  if (scene.objects[index].is_instance()) return proxy;
+  const std::uint32_t first_leaf = scene.objects[index].first_leaf;
+  const std::uint32_t first_before = earlier.scene.objects[before].first_leaf;
+  if (proxy.leaf != nullptr) proxy.leaf = &scene.leaves[first_leaf];
+  if (proxy.leaf_index != invalid_index) proxy.leaf_index = first_leaf;
+  if (proxy.faces != nullptr) {
+    const auto face = proxy.faces - earlier.scene.face_surfaces.data() -
+                      earlier.scene.leaves[first_before].first_face;
+    proxy.faces = scene.face_surfaces.data() + scene.leaves[first_leaf].first_face + face;
+  }
+  return proxy;
+}
+
+Proxy proxy_of(const CompiledScene& scene, std::uint32_t index, const EarlierProxies* earlier) {
   Proxy result;
+  if (index == invalid_index) return result;
+  if (earlier != nullptr && earlier->objects[index] != invalid_index)
+    return {moved_proxy(*earlier, scene, index), nullptr};
+  const SceneObject& object = scene.objects[index];
   if (object.is_csg()) {
     bound_csg(scene, object, result);
   } else if (!object.is_instance()) {
@@ -105,22 +135,17 @@ Proxy proxy_of(const CompiledScene& scene, std::uint32_t index) {
 }  // namespace
 
 BoundingProxies::BoundingProxies(const CompiledScene& scene, std::span<const std::uint32_t> objects,
-                                 const Workers& workers)
+                                 const Workers& workers, const EarlierProxies* earlier)
     : list(objects.size()), solids(objects.size()) {
   for_ranges(objects.size(), items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      Proxy proxy = proxy_of(scene, objects[i]);
+      Proxy proxy = proxy_of(scene, objects[i], earlier);
       list[i] = proxy.proxy;
       solids[i] = std::move(proxy.solid);
     }
   });
-}
-
-std::size_t BoundingProxies::bytes() const {
-  std::size_t bytes = list.capacity() * sizeof(BoundingProxy) +
-                      solids.capacity() * sizeof(std::unique_ptr<const PlacedSolid>);
-  for (const auto& solid : solids) bytes += solid == nullptr ? 0 : solid->bytes();
-  return bytes;
+  std::erase(solids, nullptr);
+  solids.shrink_to_fit();
 }
 
 }  // namespace crt::core

@@ -32,17 +32,24 @@ struct BoundingProxy {
   bool is_met_with_solid() const { return solid != nullptr && !is_within; }
 };
 
-/// BoundingProxies are those of some objects of a scene, which must outlive them.
+/// EarlierProxies are those of a scene that another one has objects from.
+struct EarlierProxies {
+  const CompiledScene& scene;
+  std::span<const std::uint32_t> objects;     ///< by object of the other scene its number here
+  bool keeps_numbers;                         ///< of objects, leaves and faces in the other scene
+  std::vector<const BoundingProxy*> proxies;  ///< by object here
+};
+
+/// BoundingProxies are those of some objects of a scene, which must outlive them. The number of an
+/// object may be invalid_index: its place is left empty.
 struct BoundingProxies {
   std::vector<BoundingProxy> list;
+  /// Those of the list's proxies that are not from an earlier scene have these.
   std::vector<std::unique_ptr<const PlacedSolid>> solids;
 
   BoundingProxies() = default;
   BoundingProxies(const CompiledScene& scene, std::span<const std::uint32_t> objects,
-                  const Workers& workers = {});
-
-  /// Returns the bytes that they take.
-  std::size_t bytes() const;
+                  const Workers& workers = {}, const EarlierProxies* earlier = nullptr);
 };
 
 }  // namespace crt::core

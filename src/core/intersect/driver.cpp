@@ -43,7 +43,7 @@ RayHit end_at_place(const CompiledScene& scene, const WorldRay& ray, RayHit exit
 template <bool FromNear, class Visit>
 [[gnu::always_inline]] inline void Accelerator::visit_boxes(const SingleRay& ray, RayMask,
                                                             const Visit& visit) const {
-  if (!tree_) return;
+  if (tree_.empty()) return;
   const auto visit_box = [&](std::uint32_t box) {
     visit(box, 1);
     return ray.limits[0];
@@ -52,17 +52,19 @@ template <bool FromNear, class Visit>
   if (has_flat_box_list() && FlatBoxList::takes(ray, 1) != 0) {
     flat_box_list_.traverse(ray, visit_box);
   } else {
-    tree_->traverse(source.origin, source.direction, source.t_min, ray.limits[0], FromNear,
-                    visit_box);
+    BoxCaller caller(visit_box);
+    tree_.traverse(source.origin, source.direction, source.t_min, ray.limits[0], FromNear, caller);
   }
 }
 
 template <bool FromNear, class Visit>
 void Accelerator::visit_boxes(const RayPacket& packet, RayMask rays, const Visit& visit) const {
-  if (!tree_) return;
+  if (tree_.empty()) return;
   const RayMask in_row = has_flat_box_list() ? FlatBoxList::takes(packet, rays) : 0;
   if (in_row != 0) flat_box_list_.traverse<FromNear>(packet, in_row, visit);
-  if (rays != in_row) tree_->traverse(packet, rays & ~in_row, visit);
+  if (rays == in_row) return;
+  PacketCaller<Visit> caller(visit);
+  tree_.traverse(packet, rays & ~in_row, caller);
 }
 
 template <class Real, class Tests>

@@ -35,7 +35,8 @@ class BoxLevels {
   static constexpr std::size_t width = 8;
 
   const Bounds& box(std::size_t level, std::size_t index) const {
-    return level == 0 ? scene_.objects[objects_[index]].bounds : levels_[level - 1][index];
+    if (level > 0) return levels_[level - 1][index];
+    return objects_[index] == invalid_index ? nothing_ : scene_.objects[objects_[index]].bounds;
   }
   std::size_t size(std::size_t level) const {
     return level == 0 ? objects_.size() : levels_[level - 1].size();
@@ -55,6 +56,7 @@ class BoxLevels {
 
   const CompiledScene& scene_;
   std::span<const std::uint32_t> objects_;
+  Bounds nothing_;
   std::vector<std::vector<Bounds>> levels_;
 };
 
@@ -62,16 +64,16 @@ class BoxLevels {
 
 bool all_pass_by(const CompiledScene& scene, const BoundingProxies& proxies, const Bounds& box) {
   return std::all_of(proxies.list.begin(), proxies.list.end(), [&](const BoundingProxy& proxy) {
-    return !scene.objects[proxy.object].bounds.touches(box) ||
+    return proxy.object == invalid_index || !scene.objects[proxy.object].bounds.touches(box) ||
            (proxy.is_met_with_solid() && proxy.solid->passes_by(box));
   });
 }
 
 std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
-                                            std::span<const SharedMaterial> materials,
                                             std::span<const std::uint32_t> bounded,
                                             const BoundingProxies& unbounded, double margin,
                                             const Workers& workers) {
+  const std::span<const SharedMaterial> materials = scene.materials->list;
   const bool is_light_let_in =
       std::any_of(materials.begin(), materials.end(),
                   [](const auto& material) { return lets_light_in(*material); });
@@ -84,7 +86,9 @@ std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
     if (object.is_instance()) return false;
     const std::span<const Leaf> leaves = scene.leaves_of(object);
     if (!object.solid || std::none_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
-          const auto of_leaf = materials.subspan(leaf.material, leaf.material_count());
+          const auto number = static_cast<std::size_t>(&leaf - scene.leaves.data());
+          const auto of_leaf =
+              materials.subspan(scene.materials->of_leaves[number], leaf.material_count());
           return std::any_of(of_leaf.begin(), of_leaf.end(),
                              [](const auto& material) { return lets_light_in(*material); });
         })) {
@@ -95,7 +99,8 @@ std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
   };
   for_ranges(bounded.size(), items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t place = begin; place < end; ++place) {
-      if (is_isolated(bounded[place])) isolated[bounded[place]] = static_cast<std::uint32_t>(place);
+      if (bounded[place] != invalid_index && is_isolated(bounded[place]))
+        isolated[bounded[place]] = static_cast<std::uint32_t>(place);
     }
   });
   const bool is_none = std::all_of(isolated.begin(), isolated.end(),

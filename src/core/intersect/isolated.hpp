@@ -19,9 +19,8 @@ bool all_pass_by(const CompiledScene& scene, const BoundingProxies& proxies, con
 /// none. Light enters such an object, and its box, grown by `margin`, touches no other object's,
 /// grown likewise. `bounded` must be in an order in which neighbours are near each other;
 /// `unbounded` are the other objects. It takes O(n log n), and objects for which that does not
-/// suffice do not count as isolated.
+/// suffice do not count as isolated. Places of `bounded` may be empty: invalid_index.
 std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
-                                            std::span<const SharedMaterial> materials,
                                             std::span<const std::uint32_t> bounded,
                                             const BoundingProxies& unbounded, double margin,
                                             const Workers& workers = {});

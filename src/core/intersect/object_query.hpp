@@ -146,17 +146,15 @@ void ObjectQuery<Kind>::test_leaf(const ObjectInScene& tested) {
 
 template <class Kind>
 void ObjectQuery<Kind>::test_csg(const ObjectInScene& tested) {
-  const CompiledScene& scene = tested.scene;
-  const CsgProgram& program = scene.programs[tested.object.program];
+  const CsgObject object = tested.scene.csg_object(tested.object);
   WorldRay csg_ray = tested.ray;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
   csg_ray.start.t_error = tested.start_error;
   csg_ray.max_size_error = 0;
-  CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg,
-                           Kind::takes_one, tested.frame);
+  CsgEvaluation evaluation(object, csg_ray, work_->csg, Kind::takes_one, tested.frame);
   if (!kind().begin(evaluation.starts_inside())) return;
   if constexpr (Kind::asks_for_leaf) {
-    kind().set_leaf(tested.first_leaf + program.first_leaf + evaluation.first_leaf_inside());
+    kind().set_leaf(tested.first_leaf + object.first_leaf + evaluation.first_leaf_inside());
   }
   CsgHit found;
   while (evaluation.next(found)) {
@@ -164,7 +162,7 @@ void ObjectQuery<Kind>::test_csg(const ObjectInScene& tested) {
                      .error = found.error,
                      .t_low = found.t_low,
                      .object = tested.number,
-                     .leaf = tested.first_leaf + program.first_leaf + found.leaf,
+                     .leaf = tested.first_leaf + object.first_leaf + found.leaf,
                      .face = found.face,
                      .surface = tested.surface(found.surface),
                      .root = found.root,

@@ -297,8 +297,7 @@ class ObjectTests {
          .asked = asked,
          .on_surface = Packet::lanes(packet_.starts.on_surface, group),
          .starts = packet_.source.group_starts(group)},
-        scene.programs[solid.program], scene.leaves_of(solid), scene.face_surfaces,
-        work_.near_leaves, work_.csg.steps);
+        scene.csg_object(solid), work_.near_leaves, work_.csg.steps);
     RayMask to_come = asked & mask_of(changes.one);
     RayMask pending = asked & ~mask_of(changes.one || changes.none);
     if constexpr (any_will_do) {

@@ -75,7 +75,7 @@ class All final : public ObjectQuery<All> {
   bool take(const RayHit& hit) {
     if (!is_before_end(hit)) return false;
     stopped = opacity_ != nullptr &&
-              opacity_->of_materials[accelerator_.leaf_of(hit).material_of(hit.face)];
+              opacity_->of_materials[opacity_->materials->of(accelerator_.compiled(), hit)];
     if (!stopped) hits_.push_back(hit);
     return !stopped;
   }

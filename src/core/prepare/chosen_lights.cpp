@@ -20,6 +20,7 @@ Rgb even_emission(const PreparedMaterial& material) {
 }  // namespace
 
 std::unique_ptr<const ChosenLights> ChosenLights::of(const CompiledScene& scene,
+                                                     const MaterialTable& table,
                                                      std::span<const PreparedMaterial> materials,
                                                      bool any_emits,
                                                      std::span<const Light> lights) {
@@ -33,8 +34,8 @@ std::unique_ptr<const ChosenLights> ChosenLights::of(const CompiledScene& scene,
   if (!result->has_lights_of_scene_) chosen.clear();
   if (any_emits) {
     for (const SceneObject& object : scene.objects) {
-      if (!object.is_csg() && !object.is_instance())
-        result->add_surface(scene, object.first_leaf, materials);
+      if (object.is_csg() || object.is_instance()) continue;
+      result->add_surface(scene, object.first_leaf, table.of_leaves[object.first_leaf], materials);
     }
   }
   if (chosen.empty()) return nullptr;
@@ -45,9 +46,10 @@ std::unique_ptr<const ChosenLights> ChosenLights::of(const CompiledScene& scene,
 }
 
 void ChosenLights::add_surface(const CompiledScene& scene, std::uint32_t number,
+                               std::uint32_t first_material,
                                std::span<const PreparedMaterial> materials) {
   const Leaf& leaf = scene.leaves[number];
-  const auto of_leaf = materials.subspan(leaf.material, leaf.material_count());
+  const auto of_leaf = materials.subspan(first_material, leaf.material_count());
   const auto shines = [](const PreparedMaterial& material) {
     return even_emission(material) != Rgb(0);
   };
@@ -64,7 +66,7 @@ void ChosenLights::add_surface(const CompiledScene& scene, std::uint32_t number,
   if (of_leaves_.empty()) of_leaves_.assign(scene.leaves.size(), invalid_index);
   of_leaves_[number] = static_cast<std::uint32_t>(lights_.size());
   for (std::uint32_t face = 0; face < pieces.size(); ++face) {
-    const Rgb radiance = even_emission(materials[leaf.material_of(face)]);
+    const Rgb radiance = even_emission(materials[first_material + leaf.material_place(face)]);
     lights_.emplace_back(pieces[face], radiance, !leaf.of_solid);
   }
 }

@@ -19,9 +19,10 @@ class ChosenLights {
  public:
   static constexpr std::size_t max_asked = 16;
 
-  /// Returns those of a scene, or null if there are none. `any_emits` says whether a material gives
-  /// light off.
+  /// Returns those of a scene, or null if there are none. `table` is that of its materials.
+  /// `any_emits` says whether a material gives light off.
   static std::unique_ptr<const ChosenLights> of(const CompiledScene& scene,
+                                                const MaterialTable& table,
                                                 std::span<const PreparedMaterial> materials,
                                                 bool any_emits, std::span<const Light> lights);
 
@@ -45,7 +46,7 @@ class ChosenLights {
   ChosenLights() = default;
   /// Adds the faces of a leaf by its number, if it gives light off evenly and has a formula for
   /// them.
-  void add_surface(const CompiledScene& scene, std::uint32_t number,
+  void add_surface(const CompiledScene& scene, std::uint32_t number, std::uint32_t first_material,
                    std::span<const PreparedMaterial> materials);
 
   std::vector<PreparedLight> lights_;

@@ -11,6 +11,7 @@
 #include "core/compile/primitive_limit.hpp"
 #include "core/intersect/accelerator.hpp"
 #include "core/math/float_environment.hpp"
+#include "core/prepare/geometry.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
@@ -68,58 +69,40 @@ SharedMaterial stand_in(const SharedMaterial& material, const PrepareOptions& op
   return options.material ? options.material(material) : material;
 }
 
-Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial> materials) {
-  Opacity opacity;
+Opacity opacity_of(const CompiledScene& scene, const MaterialTable& table,
+                   std::span<const PreparedMaterial> materials) {
+  Opacity opacity{.materials = &table, .of_materials = {}, .of_objects = {}};
   for (const PreparedMaterial& material : materials)
     opacity.of_materials.push_back(material.opaque);
-  const auto are_opaque = [&](std::span<const Leaf> leaves) {
+  const auto end = opacity.of_materials.end();
+  if (std::find(opacity.of_materials.begin(), end, false) == end) {
+    opacity.of_objects.assign(scene.objects.size(), true);
+    return opacity;
+  }
+  const auto are_opaque = [&](std::span<const Leaf> leaves, const std::uint32_t* numbers) {
     return std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
-      const auto first = opacity.of_materials.begin() + leaf.material;
+      const auto first = opacity.of_materials.begin() + numbers[&leaf - leaves.data()];
       return std::find(first, first + leaf.material_count(), false) ==
              first + leaf.material_count();
     });
   };
   std::vector<bool> of_prototypes;
-  for (const auto& prototype : scene.prototypes)
-    of_prototypes.push_back(are_opaque(prototype->leaves));
+  for (std::size_t i = 0; i < scene.prototypes.size(); ++i) {
+    const CompiledScene& prototype = *scene.prototypes[i].scene;
+    std::vector<std::uint32_t> numbers = prototype.materials->of_leaves;
+    for (std::uint32_t& number : numbers) number += table.of_prototypes[i];
+    of_prototypes.push_back(are_opaque(prototype.leaves, numbers.data()));
+  }
   for (const SceneObject& object : scene.objects) {
-    opacity.of_objects.push_back(object.is_instance()
-                                     ? of_prototypes[scene.instances[object.instance].prototype]
-                                     : are_opaque(scene.leaves_of(object)));
+    opacity.of_objects.push_back(
+        object.is_instance()
+            ? of_prototypes[scene.instances[object.instance].prototype]
+            : are_opaque(scene.leaves_of(object), &table.of_leaves[object.first_leaf]));
   }
   return opacity;
 }
 
 }  // namespace
-
-/// A Geometry depends on the entities, and on nothing else in the scene but the precision.
-struct PreparedData::Geometry {
-  std::vector<std::shared_ptr<const EntityNode>>
-      entities;  ///< held so that no other entity gets their address
-  Precision precision;
-  std::vector<SharedMaterial> materials;
-  bool has_csg;
-  Accelerator accelerator;
-  std::vector<std::uint32_t> entity_ids;  ///< of leaves; ray queries need nothing else of them
-
-  Geometry(const Scene& scene, CompiledScene compiled, const Workers& workers)
-      : precision(scene.settings.precision),
-        materials(std::move(compiled.materials)),
-        has_csg(!compiled.programs.empty() || !compiled.prototypes.empty()),
-        accelerator(std::move(compiled), materials, workers) {
-    entities.reserve(scene.entities.size());
-    for (const Entity& entity : scene.entities) entities.push_back(entity.shared_node());
-    entity_ids.reserve(accelerator.compiled().leaves.size());
-    for (const Leaf& leaf : accelerator.compiled().leaves) entity_ids.push_back(leaf.entity_id);
-  }
-
-  bool is_of(const Scene& scene) const {
-    return precision == scene.settings.precision &&
-           std::equal(
-               entities.begin(), entities.end(), scene.entities.begin(), scene.entities.end(),
-               [](const auto& node, const Entity& entity) { return node == entity.shared_node(); });
-  }
-};
 
 template <class Pool>
 const Pool* PreparedData::of_earlier(Pool PreparedData::*pool, const PrepareOptions& options) {
@@ -141,24 +124,17 @@ PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
             .background = scene.background,
             .settings = scene.settings};
 
-  if (earlier != nullptr && earlier->geometry_->is_of(scene)) {
-    geometry_ = earlier->geometry_;
-  } else {
-    geometry_ = std::make_shared<const Geometry>(
-        scene,
-        compile(scene.entities, scene.settings.precision, workers,
-                PrimitiveLimit(scene.settings.precision, options.max_primitives)),
-        workers);
-  }
-  accelerator_ = &geometry_->accelerator;
+  entities_ = PreparedEntities::of(scene, earlier == nullptr ? nullptr : &earlier->entities_,
+                                   options.max_primitives, workers);
+  accelerator_ = &entities_.geometry->accelerator;
   compiled_ = &accelerator_->compiled();
   if (scene.settings.precision == Precision::standard) {
     input_tolerance_ = {.rounding = start_rounding,
                         .max_size_error = start_rounding * accelerator_->largest_radius(),
                         .farthest = accelerator_->farthest()};
   }
-  entity_ids_ = geometry_->entity_ids;
-  for (const SharedMaterial& material : geometry_->materials) {
+  entity_ids_ = compiled_->entity_ids;
+  for (const SharedMaterial& material : entities_.materials->list) {
     workers.poll();
     materials_.emplace_back(stand_in(material, options),
                             MaterialPools{textures_, normals_, layer_tables_});
@@ -168,14 +144,15 @@ PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
   background_ =
       std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
   scene_.lights = lights_of(scene, background_->sky(), emits);
-  chosen_lights_ = ChosenLights::of(*compiled_, materials_, emits, scene_.lights);
-  opacity_ = opacity_of(accelerator_->compiled(), materials_);
+  chosen_lights_ =
+      ChosenLights::of(*compiled_, *entities_.materials, materials_, emits, scene_.lights);
+  opacity_ = opacity_of(*compiled_, *entities_.materials, materials_);
   if (std::any_of(scene_.lights.begin(), scene_.lights.end(), is_environment))
     environment_ = std::make_unique<Environment>(*background_);
   textures_.settle();
   normals_.settle();
   layer_tables_.settle();
-  features_ = find_features(scene_, materials_, geometry_->has_csg);
+  features_ = find_features(scene_, materials_, entities_.geometry->has_csg);
   features_.unseen = (accelerator_->kinds_that_pass() & passing_camera) != 0;
 
   warnings_ = textures_.warnings();
@@ -196,9 +173,10 @@ PreparedData::~PreparedData() = default;
 
 MemoryUse PreparedData::memory() const {
   MemoryUse use = accelerator_->memory();
-  use.primitives += bytes_of(geometry_->entities) + bytes_of(geometry_->entity_ids);
-  use.materials = bytes_of(geometry_->materials) + bytes_of(materials_) + textures_.bytes() +
-                  normals_.bytes() + layer_tables_.bytes() +
+  use.primitives += entities_.nodes.bytes() + bytes_of(compiled_->entity_ids);
+  use.materials = bytes_of(entities_.materials->list) + bytes_of(entities_.materials->of_leaves) +
+                  bytes_of(materials_) + textures_.bytes() + normals_.bytes() +
+                  layer_tables_.bytes() +
                   (chosen_lights_ == nullptr ? 0 : chosen_lights_->bytes()) +
                   (opacity_.of_materials.capacity() + opacity_.of_objects.capacity()) / CHAR_BIT;
   return use;
@@ -328,10 +306,13 @@ RayMask PreparedData::on_shapes_like(const RayHit& first, std::span<const RayHit
                                      RayMask some) const {
   const Leaf& like = leaf(first);
   if (like.family == nullptr) return 0;
+  const std::vector<std::uint32_t>& materials = entities_.materials->of_leaves;
   RayMask result = 0;
   for_each_ray(some, [&](std::size_t lane) {
     const Leaf& leaf = this->leaf(hits[lane]);
-    const bool is_like = leaf.family == like.family && leaf.material == like.material &&
+    // None of instances has a family.
+    const bool is_like = leaf.family == like.family &&
+                         materials[hits[lane].leaf] == materials[first.leaf] &&
                          hits[lane].entering == first.entering;
     result |= static_cast<RayMask>(is_like) << lane;
   });
@@ -345,7 +326,7 @@ void PreparedData::points_on_shapes(std::span<const RayHit, lane_count> hits, Ra
   std::array<const Shape*, lane_count> shapes;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const RayHit& hit = hits[(some >> lane & 1u) != 0 ? lane : first];
-    shapes[lane] = leaf(hit).shape.get();
+    shapes[lane] = leaf(hit).shape;
   }
   shapes[0]->points_on_each(shapes, lines, t, with_uv, points);
 }

@@ -19,6 +19,7 @@
 #include "core/intersect/spare_workspace.hpp"
 #include "core/prepare/chosen_lights.hpp"
 #include "core/prepare/features.hpp"
+#include "core/prepare/prepared_entities.hpp"
 #include "core/ray/object_ray.hpp"
 #include "core/ray/ray_packet.hpp"
 #include "core/shading/environment.hpp"
@@ -186,7 +187,9 @@ class PreparedData {
   }
 
   /// Returns the material of a hit, without the rest.
-  std::uint32_t hit_material(const RayHit& hit) const { return leaf(hit).material_of(hit.face); }
+  std::uint32_t hit_material(const RayHit& hit) const {
+    return entities_.materials->of(*compiled_, hit);
+  }
 
   /// Returns the user's number of the entity that was hit.
   std::uint32_t entity_id(const RayHit& hit) const {
@@ -237,6 +240,8 @@ class PreparedData {
   LeafOfHit placed_leaf(const RayHit& hit) const { return {*compiled_, hit}; }
 
   const std::vector<PreparedMaterial>& materials() const { return materials_; }
+  /// Returns of which of the materials leaves are.
+  const MaterialTable& material_table() const { return *entities_.materials; }
   const PreparedBackground& background() const { return *background_; }
   /// Returns the background as a light, or null if it is none.
   const Environment* environment() const { return environment_.get(); }
@@ -253,12 +258,10 @@ class PreparedData {
   SpareWorkspace& spare_workspace() const { return spare_workspace_; }
   /// Returns whether both share the geometry that rays meet.
   bool shares_geometry_with(const PreparedData& other) const {
-    return geometry_ == other.geometry_;
+    return entities_.geometry == other.entities_.geometry;
   }
 
  private:
-  struct Geometry;
-
   template <class Pool>
   static const Pool* of_earlier(Pool PreparedData::*pool, const PrepareOptions& options);
   static SurfacePoint object_point(const LeafOfHit& in_place, const WorldRay& ray,
@@ -269,7 +272,7 @@ class PreparedData {
   void warn_of_meshes();
 
   Scene scene_;
-  std::shared_ptr<const Geometry> geometry_;
+  PreparedEntities entities_;
   TexturePool textures_;
   TexturePool normals_;
   LayerTablePool layer_tables_;

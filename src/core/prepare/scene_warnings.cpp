@@ -1,10 +1,10 @@
 // This file finds what is not wrong with a scene but most likely not meant.
 #include <algorithm>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "core/geometry/mesh/mesh.hpp"
+#include "core/prepare/geometry.hpp"
 #include "core/prepare/prepared_data.hpp"
 #include "crt/error.hpp"
 #include "text/format.hpp"
@@ -53,34 +53,14 @@ void PreparedData::warn_of_camera() {
   }
 }
 
-namespace {
-
-/// Returns the triangles of a leaf if it is a mesh with warnings that nobody has had, or null.
-const MeshTriangles* untold_mesh(const Leaf& leaf) {
-  if (leaf.face_count < 2) return nullptr;  // no closed mesh is less, and most primitives are
-  const auto* const mesh = dynamic_cast<const MeshShape*>(leaf.shape.get());
-  if (mesh == nullptr) return nullptr;
-  const MeshReport& report = mesh->triangles().report();
-  return report.reported || report.warnings.empty() ? nullptr : &mesh->triangles();
-}
-
-}  // namespace
-
 /// Tells what is known of meshes that programs have made, once for each.
 void PreparedData::warn_of_meshes() {
-  std::set<const MeshTriangles*> seen;
-  const auto warn_of = [&](const std::vector<Leaf>& leaves) {
-    for (const Leaf& leaf : leaves) {
-      const MeshTriangles* const mesh = untold_mesh(leaf);
-      if (mesh == nullptr || !seen.insert(mesh).second) continue;
-      const MeshReport& report = mesh->report();
-      const std::string name = report.name.empty() ? "a mesh" : text::format("'{}'", report.name);
-      for (const std::string& warning : report.warnings)
-        warnings_.push_back(text::format("{}: {}", name, warning));
-    }
-  };
-  warn_of(compiled_->leaves);
-  for (const auto& prototype : compiled_->prototypes) warn_of(prototype->leaves);
+  for (const auto& mesh : entities_.geometry->meshes) {
+    const MeshReport& report = mesh->report();
+    const std::string name = report.name.empty() ? "a mesh" : text::format("'{}'", report.name);
+    for (const std::string& warning : report.warnings)
+      warnings_.push_back(text::format("{}: {}", name, warning));
+  }
 }
 
 }  // namespace crt::core

@@ -50,6 +50,7 @@ class MeshShape final : public Shape {
   std::unique_ptr<const FaceFunctions> face_functions() const override;
   const FacetAttributes* facet_attributes() const override { return triangles_->attributes(); }
   const MeshTriangles& triangles() const { return *triangles_; }
+  const std::shared_ptr<const MeshTriangles>& shared_triangles() const { return triangles_; }
   /// Returns only its own bytes and those of the triangles, which others may share.
   std::size_t bytes() const override { return sizeof *this + triangles_->bytes(); }
 
