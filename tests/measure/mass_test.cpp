@@ -279,6 +279,20 @@ TEST_CASE("answers are the same for any number of threads") {
   }
 }
 
+TEST_CASE("copies that are prepared once count as often as they are there") {
+  const Entity part = Entity(Box{.corner_a = {0, 0, 0}, .corner_b = {1, 1, 1}}) -
+                      Entity(Cylinder{.from = {0.5, -1, 0.5}, .to = {0.5, 2, 0.5}, .radius = 0.25});
+  std::vector<Entity> copies;
+  for (int i = 0; i < 400; ++i) {
+    Transform map;
+    map.row_x = {0.6, -0.8, 0};
+    map.row_y = {0.8, 0.6, 0};
+    map.translation = {3.0 * (i % 20), 3.0 * (i / 20), 0.125 * i};
+    copies.push_back(part.transformed(map));
+  }
+  check(volume(csg_union(copies), {.relative_width = 1e-3}), 400 * (1 - pi / 16), 1e-3 + 1e-9);
+}
+
 TEST_CASE("what is known when the time is over is the answer") {
   const Entity part = Entity(Torus{}) + Entity(Sphere{.center = {1, 0.2, 0}, .radius = 0.5});
   const Interval quick = volume(part, {.relative_width = 1e-12, .seconds = 1e-9});

@@ -113,25 +113,21 @@ CellSolid::CellSolid(const CompiledScene& scene, const SceneObject& object) {
   const CompiledScene& own = object.is_instance() ? scene.prototype_of(object) : scene;
   surfaces_ = own.face_surfaces;
   bounds_ = object.bounds;
-  const CsgProgram* program = nullptr;
-  if (object.is_instance() && own.objects.front().is_csg())
-    program = &own.programs[own.objects.front().program];
-  if (object.is_csg()) program = &scene.programs[object.program];
+  const SceneObject& shape = object.is_instance() ? own.objects.front() : object;
+  const CsgProgram* const program = shape.is_csg() ? own.programs[shape.program] : nullptr;
   program_ = std::make_shared<const OpenProgram>(program != nullptr ? OpenProgram::of(*program)
                                                                     : OpenProgram::of_leaf());
+  InstancePlacements placements;
   for (const Leaf& leaf : scene.leaves_of(object)) {
     CellLeaf& entry = leaves_.emplace_back();
     entry.leaf = &leaf;
     entry.placement = leaf.placement;
     entry.functions = leaf.shape->face_functions();
-    const Instance* const instance =
-        object.is_instance() ? &scene.instances[object.instance] : nullptr;
-    if (instance == nullptr || instance->to_world == nullptr) continue;
-    auto placement = std::make_unique<ComposedPlacement>();
-    const auto number = static_cast<std::size_t>(leaf.placement - own.placements.data());
-    placement->set(instance->to_world, own.chains[number], own.precision);
-    entry.placement = &placement->get();
-    entry.own_placement = std::move(placement);
+    if (!object.is_instance()) continue;
+    // A frame's placement is there until another is asked for. The standard tier's is a value.
+    entry.own_placement =
+        std::make_unique<const Placement>(scene.frame_of(object, placements).placement_of(leaf));
+    entry.placement = entry.own_placement.get();
   }
 }
 

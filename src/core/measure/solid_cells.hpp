@@ -93,7 +93,7 @@ class CellSolid {
   struct CellLeaf {
     const Leaf* leaf = nullptr;
     const Placement* placement = nullptr;
-    std::unique_ptr<const ComposedPlacement> own_placement;  ///< of a leaf of an instance
+    std::unique_ptr<const Placement> own_placement;  ///< of a leaf of an instance
     std::unique_ptr<const FaceFunctions> functions;
   };
   struct Workspace;
