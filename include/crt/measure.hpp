@@ -43,6 +43,10 @@ struct MeasureOptions {
   int threads = 0;  ///< as in RenderOptions
   /// This is asked now and then whether to continue, from one thread at a time. Empty: always.
   std::function<bool()> go_on = {};
+  /// The calling thread calls this with how much work was done since the last call: how many boxes
+  /// were looked at, times the parts that each had to be compared with. It is the same on any
+  /// machine. What it throws ends the measuring, and comes out.
+  std::function<void(std::uint64_t)> work = {};
 };
 
 /// MassProperties are those of a solid of density 1, in scene units.

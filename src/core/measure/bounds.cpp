@@ -36,7 +36,8 @@ class ExtentSearch {
   double run() {
     for (std::uint32_t i = 0; i < solids_.size(); ++i)
       add({solids_[i].cell(first_box(solids_[i].bounds())), i, infinity});
-    while (!cells_.empty() && cells_.front().most > surely_ + width_ && !clock_.is_over()) {
+    while (!cells_.empty() && cells_.size() < solids_.size() + most_cells &&
+           cells_.front().most > surely_ + width_ && !clock_.is_over()) {
       std::pop_heap(cells_.begin(), cells_.end(), less);
       const ReachingCell whole = std::move(cells_.back());
       cells_.pop_back();
@@ -53,9 +54,14 @@ class ExtentSearch {
   }
 
  private:
+  /// What no equations bound, such as custom shapes, would be divided for ever. Each solid may have
+  /// a cell beside these.
+  static constexpr std::size_t most_cells = std::size_t{1} << 16;
+
   static bool less(const ReachingCell& a, const ReachingCell& b) { return a.most < b.most; }
 
   void add(ReachingCell&& open) {
+    clock_.count(open.cell.program->leaves.size());
     const CellSolid& solid = solids_[open.object];
     const CellLook look = solid.look(open.cell);
     const CellReach reach = reach_of(open.cell.box, look, axis_, sign_);

@@ -148,6 +148,9 @@ class MassSearch {
         for (OpenCell& part : parts[i]) look_at(part);
       }
     });
+    std::uint64_t looks = 0;
+    for (std::size_t i = 0; i < some; ++i)
+      looks += parts[i].size() * cells[i].cell.program->leaves.size();
     std::vector<OpenCell> next(
         std::make_move_iterator(cells.begin() + static_cast<std::ptrdiff_t>(some)),
         std::make_move_iterator(cells.end()));
@@ -155,6 +158,7 @@ class MassSearch {
       if (parts[i].empty()) done_ += cells[i].mass.part;  // it cannot be divided
       for (OpenCell& part : parts[i]) next.push_back(std::move(part));
     }
+    clock_.count(looks);
     cells = std::move(next);
   }
 
