@@ -56,7 +56,7 @@ class ExtentSearch {
  private:
   /// What no equations bound, such as custom shapes, would be divided for ever. Each solid may have
   /// a cell beside these.
-  static constexpr std::size_t most_cells = std::size_t{1} << 16;
+  static constexpr std::size_t most_cells = std::size_t{1} << 14;
 
   static bool less(const ReachingCell& a, const ReachingCell& b) { return a.most < b.most; }
 
