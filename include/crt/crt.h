@@ -1130,9 +1130,10 @@ CRT_API crt_status crt_entity_area(crt_entity* entity, double relative_width, do
 /**
  * Gives a box that holds the entity. Each side of it is within 1e-6 times half of the longest side
  * of the box around its parts of where the smallest box has it. What no equations bound, such as
- * crt_custom_create(), may have a larger one. Of surfaces, and of what is infinite along any axis,
- * it is the box around the parts, rounded outwards: that of a difference holds what is cut from.
- * Sides of what has no end are infinite, and what has no points has lower > upper. Since 1.1.
+ * crt_custom_create(), or what is thinner than rounding may have a larger one. Of surfaces, and of
+ * what is infinite along any axis, it is the box around the parts, rounded outwards: that of a
+ * difference holds what is cut from. Sides of what has no end are infinite, and what has no points
+ * has lower > upper. Since 1.1.
  */
 CRT_API crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double upper[3]);
 /**

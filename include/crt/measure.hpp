@@ -44,8 +44,8 @@ struct MeasureOptions {
   /// This is asked now and then whether to continue, from one thread at a time. Empty: always.
   std::function<bool()> go_on = {};
   /// The calling thread calls this with how much work was done since the last call: how many boxes
-  /// were looked at, times the parts that each had to be compared with. It is the same on any
-  /// machine. What it throws ends the measuring, and comes out.
+  /// were looked at, times the parts that each was compared with (and 4 more for what is in it). It
+  /// is the same on any machine. What it throws ends the measuring, and comes out.
   std::function<void(std::uint64_t)> work = {};
 };
 
@@ -89,7 +89,9 @@ PointSide contains(const Entity& entity, const Vec3& point);
 /// Returns a box that holds a solid, each side of which is within `relative_width` times half of
 /// the longest side of bounding_box() of the smallest one. Sides that are infinite there stay so,
 /// and so do all sides of what is infinite along another axis. It is empty (lower > upper) for a
-/// solid without points. Surfaces have the box that bounding_box() says.
+/// solid without points. Surfaces have the box that bounding_box() says. The search for a side ends
+/// after 2^16 boxes and one for each solid, so that what is thinner than rounding, and what has no
+/// equations, may have a larger box.
 BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& options = {});
 
 }  // namespace crt

@@ -18,6 +18,8 @@ namespace {
 /// To look at a part of a solid in a box takes about as long as so many steps of a script.
 constexpr std::uint64_t steps_per_look = 64;
 constexpr double default_width = 1e-6;
+/// Narrower than that a single step of the search may take long.
+constexpr double least_width = 1e-9;
 
 const Entity& entity(const Arguments& arguments) {
   const auto* given = std::get_if<Entity>(&arguments[0]);
@@ -27,8 +29,13 @@ const Entity& entity(const Arguments& arguments) {
 
 /// Returns options by which the script pays for the work, and may be ended during it.
 MeasureOptions options_of(const Arguments& arguments) {
-  MeasureOptions options{.relative_width = default_width, .threads = 1};
-  if (arguments.size() > 1) options.relative_width = arguments.number(1);
+  MeasureOptions options{
+      .relative_width = default_width, .threads = 1, .go_on = arguments.context.options.go_on};
+  if (arguments.size() > 1) {
+    options.relative_width = arguments.number(1);
+    if (!(options.relative_width >= least_width && options.relative_width <= 1))
+      fail(arguments.span(1), "the relative width must be from 1e-9 to 1");
+  }
   options.work = [&arguments](std::uint64_t looks) {
     arguments.context.spend(arguments.call, static_cast<std::size_t>(steps_per_look * looks));
   };
@@ -45,8 +52,7 @@ auto measured(const Arguments& arguments, std::string_view name, const Measure& 
   try {
     return measure();
   } catch (const Error& error) {
-    const std::size_t wrong = error.argument() == "relative_width" ? 1 : 0;
-    throw Failure{.span = arguments.span(wrong),
+    throw Failure{.span = arguments.span(0),
                   .message = text::format("{}: {}", name, error.what()),
                   .code = error.code()};
   }

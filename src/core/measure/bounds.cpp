@@ -36,7 +36,7 @@ class ExtentSearch {
   double run() {
     for (std::uint32_t i = 0; i < solids_.size(); ++i)
       add({solids_[i].cell(first_box(solids_[i].bounds())), i, infinity});
-    while (!cells_.empty() && cells_.size() < solids_.size() + most_cells &&
+    while (!cells_.empty() && looks_ < solids_.size() + most_looks &&
            cells_.front().most > surely_ + width_ && !clock_.is_over()) {
       std::pop_heap(cells_.begin(), cells_.end(), less);
       const ReachingCell whole = std::move(cells_.back());
@@ -54,13 +54,14 @@ class ExtentSearch {
   }
 
  private:
-  /// What no equations bound, such as custom shapes, would be divided for ever. Each solid may have
-  /// a cell beside these.
-  static constexpr std::size_t most_cells = std::size_t{1} << 14;
+  /// What no equations bound, such as custom shapes, and what is thinner than its own rounding
+  /// would be divided for ever. So a side ends after so many looks at cells, and one at each solid.
+  static constexpr std::size_t most_looks = std::size_t{1} << 16;
 
   static bool less(const ReachingCell& a, const ReachingCell& b) { return a.most < b.most; }
 
   void add(ReachingCell&& open) {
+    ++looks_;
     clock_.count(open.cell.program->leaves.size());
     const CellSolid& solid = solids_[open.object];
     const CellLook look = solid.look(open.cell);
@@ -82,6 +83,7 @@ class ExtentSearch {
   double sign_;
   double width_;
   MeasureClock& clock_;
+  std::size_t looks_ = 0;
   std::vector<ReachingCell> cells_;  ///< a heap, that which may reach farthest first
   double surely_ = -infinity;        ///< a point of the solids is there
   double at_least_ = -infinity;      ///< cells that are done reach there

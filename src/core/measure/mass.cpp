@@ -79,6 +79,8 @@ class MassSearch {
  private:
   static constexpr std::size_t most_cells = std::size_t{1} << 20;
   static constexpr std::size_t cells_of_task = 32;
+  /// What is found of a cell takes as long as so many looks at a leaf.
+  static constexpr std::uint64_t looks_of_cell = 4;
   /// Time is looked at after so many.
   static constexpr std::size_t cells_of_round = std::size_t{1} << 14;
 
@@ -150,7 +152,7 @@ class MassSearch {
     });
     std::uint64_t looks = 0;
     for (std::size_t i = 0; i < some; ++i)
-      looks += parts[i].size() * cells[i].cell.program->leaves.size();
+      looks += parts[i].size() * (cells[i].cell.program->leaves.size() + looks_of_cell);
     std::vector<OpenCell> next(
         std::make_move_iterator(cells.begin() + static_cast<std::ptrdiff_t>(some)),
         std::make_move_iterator(cells.end()));
