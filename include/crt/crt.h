@@ -463,6 +463,14 @@ typedef enum crt_precision {
                          transforms are multiplied without rounding, in up to 1024 bits */
 } crt_precision;
 
+/** Says what a scene unit is. Since 1.1. */
+typedef enum crt_unit {
+  CRT_UNIT_M = 0, /**< a metre */
+  CRT_UNIT_CM,    /**< a centimetre */
+  CRT_UNIT_MM,    /**< a millimetre */
+  CRT_UNIT_IN     /**< an inch */
+} crt_unit;
+
 /** Says how a scene is rendered. */
 typedef struct crt_settings {
   uint32_t struct_size;
@@ -525,7 +533,8 @@ typedef struct crt_settings {
   /** Not 0: the finished picture is freed of noise, and nothing is claimed of its accuracy. Default
    * 0. Since 1.1. */
   int32_t denoise;
-  int32_t reserved_4; /**< must be 0 */
+  int32_t unit; /**< a crt_unit: what a scene unit is, which neither the geometry nor the picture
+                   knows; default CRT_UNIT_M. Since 1.1. */
 } crt_settings;
 
 /** Fills in a checker. The values that other types need get sensible defaults too. */
@@ -1042,13 +1051,6 @@ CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
 CRT_API crt_status crt_entity_solid_fault(crt_entity* entity, char* text, size_t capacity,
                                           size_t* length);
 /**
- * Gives a box that holds the entity, rounded outwards. It may be larger than the smallest one: of a
- * difference it holds what is cut from. Sides of what has no end are infinite, and what has no
- * points has lower > upper. It takes O(n log n) for n primitives. Since 1.1.
- */
-CRT_API crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double upper[3]);
-
-/**
  * Returns the number of primitives the entity is made of. A part that occurs twice is counted
  * twice. It is 0 for NULL and for the empty entity.
  */
@@ -1066,6 +1068,90 @@ CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
  */
 CRT_API crt_status crt_entity_describe(crt_entity* entity, char* json, size_t capacity,
                                        size_t* length);
+
+/** @} */
+
+/* ---- measures ------------------------------------------------------------------------------- */
+
+/** @defgroup measures Measures of solids
+ * These functions say how much a solid is, where it is and what is in it. The solid is that which
+ * the numbers of the entity describe, by their equations; no triangles and no samples are taken.
+ * Answers are intervals that surely hold the truth. They are the same for any number of threads,
+ * unless time ends them. docs/measure.md is a guide. Threads: Shared.
+ *
+ * What has no inside is refused (crt_entity_solid_fault() says why), and so is a volume, an area or
+ * a mass without a box around it.
+ *
+ * - `relative_width` is the width that is asked for, relative to the size of the answer: above 0
+ * and at most 1. Rounding keeps answers from being narrower than about 1e-12.
+ * - `seconds` ends the work with what is known then, which may be a wider interval. It is 0 or
+ *   INFINITY for no such end.
+ *
+ * @code{.c}
+ * crt_mass mass;
+ * crt_mass_init(&mass, sizeof mass);
+ * if (crt_entity_mass(entity, 1e-6, 0, &mass) == CRT_OK)
+ *   printf("between %.9g and %.9g\n", mass.volume.lower, mass.volume.upper);
+ * @endcode
+ * @{ */
+
+/**
+ * An interval holds a number: lower <= it <= upper. The layout is fixed for ever: 16 bytes. Since
+ * 1.1.
+ */
+typedef struct crt_interval {
+  double lower;
+  double upper;
+} crt_interval;
+
+/** Has the mass properties of a solid of density 1, in scene units. Since 1.1. */
+typedef struct crt_mass {
+  uint32_t struct_size;
+  uint32_t reserved;        /**< 0 */
+  crt_interval volume;      /**< parts that overlap count once */
+  crt_interval area;        /**< of the surface, without what is within the solid; INFINITY above
+                               while a place of it is so narrow that nothing bounds it */
+  crt_interval centroid[3]; /**< its width is relative to half of the longest side of the box */
+  /** About the centroid: xx, yy, zz, xy, yz and zx. The last three are the integrals of -x y, -y z
+   * and -z x. Widths are relative to the volume times the square of half of the longest side of the
+   * box around the solid. */
+  crt_interval inertia[6];
+} crt_mass;
+
+/** Fills in zeros. Since 1.1. */
+CRT_API crt_status crt_mass_init(crt_mass* mass, size_t struct_size);
+/**
+ * Finds all mass properties of a solid. It takes some times as long as the volume alone. Since 1.1.
+ * @param out  is filled in as far as its struct_size goes
+ */
+CRT_API crt_status crt_entity_mass(crt_entity* entity, double relative_width, double seconds,
+                                   crt_mass* out);
+/** Finds the volume of a solid, in cubed scene units. Since 1.1. */
+CRT_API crt_status crt_entity_volume(crt_entity* entity, double relative_width, double seconds,
+                                     crt_interval* out);
+/** Finds the area of the surface of a solid, in squared scene units. Since 1.1. */
+CRT_API crt_status crt_entity_area(crt_entity* entity, double relative_width, double seconds,
+                                   crt_interval* out);
+/**
+ * Gives a box that holds the entity. Each side of it is within 1e-6 times half of the longest side
+ * of the box around its parts of where the smallest box has it. What no equations bound, such as
+ * crt_custom_create(), or what is thinner than rounding may have a larger one. Of surfaces, and of
+ * what is infinite along any axis, it is the box around the parts, rounded outwards: that of a
+ * difference holds what is cut from. Sides of what has no end are infinite, and what has no points
+ * has lower > upper. Since 1.1.
+ */
+CRT_API crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double upper[3]);
+/**
+ * Finds whether points are in a solid: 1 for inside, 0 for on the surface, as far as rounding of
+ * its equations lets one know, and -1 for outside. Where parts of a union touch is inside. What
+ * crt_custom_create() made has no 0. If a point is not finite, nothing is written, and the message
+ * names its index. Since 1.1.
+ * @param points  each 3 numbers
+ * @param stride  bytes from one point to the next; 0 means one after the other
+ * @param side    gets `count` numbers
+ */
+CRT_API crt_status crt_entity_contains(crt_entity* entity, const double* points, size_t stride,
+                                       size_t count, int8_t* side);
 
 /** @} */
 

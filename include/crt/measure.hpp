@@ -44,6 +44,10 @@ struct MeasureOptions {
   int threads = 0;  ///< as in RenderOptions
   /// This is asked now and then whether to continue, from one thread at a time. Empty: always.
   std::function<bool()> go_on = {};
+  /// The calling thread calls this with how much work was done since the last call: how many boxes
+  /// were looked at, times the parts that each was compared with (and 4 more for what is in it). It
+  /// is the same on any machine. What it throws ends the measuring, and comes out.
+  std::function<void(std::uint64_t)> work = {};
 };
 
 /// MassProperties are those of a solid of density 1, in scene units.
@@ -85,10 +89,11 @@ void contains(const Entity& entity, std::span<const Vec3> points, std::span<Poin
 PointSide contains(const Entity& entity, const Vec3& point);
 
 /// Returns a box that holds a solid. Each side is within `relative_width` times half of the longest
-/// side of bounding_box() of the smallest one, but for solids that merely touch where they are
-/// intersected, of which it may be larger. Sides that are infinite there stay so, and so do all
+/// side of bounding_box() of the smallest one. Sides that are infinite there stay so, and so do all
 /// sides of what is infinite along another axis. It is empty (lower > upper) for a solid without
-/// points. Surfaces have the box that bounding_box() says.
+/// points. Surfaces have the box that bounding_box() says. The search for a side ends after 2^16
+/// boxes and one for each solid. So solids that merely touch where they are intersected, what is
+/// thinner than rounding and what has no equations may have a larger box.
 BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& options = {});
 
 /// A NearestPoint is where the surface of a solid is nearest to a point.

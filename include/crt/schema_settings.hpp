@@ -25,6 +25,8 @@ inline constexpr auto choices<ToneMap> = choice("ToneMap", "crt_tone_map", "CRT_
 template <>
 inline constexpr auto choices<Precision> = choice("Precision", "crt_precision", "CRT_PRECISION",
                                                   "standard", "exact");
+template <>
+inline constexpr auto choices<Unit> = choice("Unit", "crt_unit", "CRT_UNIT", "m", "cm", "mm", "in");
 
 template <>
 inline constexpr auto table<Settings> = Table{
@@ -111,6 +113,8 @@ inline constexpr auto table<Settings> = Table{
           "`\"standard\"` or `\"exact\"`, see below"),
     field("compat", &Settings::compat, any, {},
           "`2015` for a [script of that year](compat.md), see below"),
+    field("unit", &Settings::unit, any, {.option = "what a scene unit is: m, cm, mm or in"},
+          "what a scene unit is: `\"m\"`, `\"cm\"`, `\"mm\"` or `\"in\"`"),
 };
 
 }  // namespace crt::schema

@@ -43,6 +43,14 @@ enum class PixelFilter {
   blackman_harris,  ///< a bell around its middle, Settings::filter_width pixels wide
 };
 
+/// Says what a scene unit is. Measures are printed with it.
+enum class Unit {
+  m,   ///< a metre
+  cm,  ///< a centimetre
+  mm,  ///< a millimetre
+  in,  ///< an inch
+};
+
 /// This is the one value of Settings::compat beside 0.
 inline constexpr int compat_2015 = 2015;
 
@@ -116,6 +124,8 @@ struct Settings {
   /// it, see docs/compat.md. That concerns the lens, panoramas, the places of the grid's samples
   /// and the levels of 8-bit files. It leaves the other settings: see settings_of_2015().
   int compat = 0;
+  /// What a scene unit is. It changes neither the geometry nor the picture.
+  Unit unit = Unit::m;
 };
 
 /// Returns the settings that a script with `compat -> 2015` begins with. Files store light as it is

@@ -25,6 +25,7 @@ from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Stat
 from .expressions import Expression
 from .images import Image
 from .jobs import Job
+from .measures import Interval, Mass
 from .meshes import Mesh, MeshReport, load_mesh, mesh_report
 from .notebooks import Live
 from .primitives import (
@@ -86,6 +87,7 @@ from .values import (
     RenderStats,
     Settings,
     ToneMap,
+    Unit,
 )
 
 live = Live
@@ -123,11 +125,13 @@ __all__ = [
     "Image",
     "ImageMapping",
     "Implicit",
+    "Interval",
     "Job",
     "Light",
     "LightType",
     "LOCATION",
     "Live",
+    "Mass",
     "Material",
     "Mesh",
     "MeshReport",
@@ -156,6 +160,7 @@ __all__ = [
     "ToneMap",
     "Torus",
     "Triangle",
+    "Unit",
     "__version__",
     "camera_rays",
     "difference",

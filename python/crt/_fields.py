@@ -274,7 +274,11 @@ FIELDS = {
             "Not 0: the finished picture is freed of noise, and nothing is claimed of its "
             "accuracy. Default 0. Since 1.1.",
         ),
-        ("int32_t reserved_4", "must be 0"),
+        (
+            "int32_t unit",
+            "a Unit: what a scene unit is, which neither the geometry nor the picture knows; "
+            "default Unit.M. Since 1.1.",
+        ),
     ),
     "crt_mesh": (
         ("int32_t reserved", "must be 0"),
@@ -359,6 +363,25 @@ FIELDS = {
             "way.",
         ),
         ("double first_overlap[3]", "a point near the first of these places"),
+    ),
+    "crt_mass": (
+        ("uint32_t reserved", "0"),
+        ("crt_interval volume", "parts that overlap count once"),
+        (
+            "crt_interval area",
+            "of the surface, without what is within the solid; INFINITY above while a place of "
+            "it is so narrow that nothing bounds it",
+        ),
+        (
+            "crt_interval centroid[3]",
+            "its width is relative to half of the longest side of the box",
+        ),
+        (
+            "crt_interval inertia[6]",
+            "About the centroid: xx, yy, zz, xy, yz and zx. The last three are the integrals of"
+            " -x y, -y z and -z x. Widths are relative to the volume times the square of half "
+            "of the longest side of the box around the solid.",
+        ),
     ),
     "crt_prepare_options": (
         ("uint32_t reserved", "0"),

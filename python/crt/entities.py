@@ -15,11 +15,13 @@ from typing import Any, SupportsFloat, SupportsIndex
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arguments
+from . import _arguments, measures
 from ._arguments import Point
 from ._handles import Handle, Reference
 from ._library import create, library
 from ._materials import AnyMaterial, dressed
+from .measures import Interval, Mass
+from .rays import points_of
 
 MOST_CALLS = 3  # that a representation shows
 
@@ -152,12 +154,39 @@ class Entity(Handle):
 
     @property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Returns the low and the high corner of a box that holds it, rounded outwards. The box may
-        be larger than the smallest one: of a difference it holds what is cut from. Sides of what
-        has no end are infinite, and what has no points has its low corner above the high one."""
+        """Returns the low and the high corner of a box that holds it, rounded outwards. Each side
+        is within 1e-6 times half of the longest one of where the smallest box has it. That of a
+        surface, or of what is infinite along any axis, may be larger. Sides of what has no end are
+        infinite, and what has no points has its low corner above the high one."""
         low, high = np.empty(3), np.empty(3)
         library.crt_entity_bounds(self._handle, low.ctypes.data, high.ctypes.data)
         return low, high
+
+    def volume(
+        self, relative_width: SupportsFloat = 1e-6, seconds: SupportsFloat | None = None
+    ) -> Interval:
+        """Returns the volume of the solid, in cubed scene units. It is found to `relative_width`,
+        relative to its size, or as far as it is known after so many seconds."""
+        return measures.interval("volume", self._handle, relative_width, seconds)
+
+    def area(
+        self, relative_width: SupportsFloat = 1e-6, seconds: SupportsFloat | None = None
+    ) -> Interval:
+        """Returns the area of the solid's surface, in squared scene units. Its upper end is
+        infinite while a place of the surface is so narrow that nothing bounds it."""
+        return measures.interval("area", self._handle, relative_width, seconds)
+
+    def mass(
+        self, relative_width: SupportsFloat = 1e-6, seconds: SupportsFloat | None = None
+    ) -> Mass:
+        """Returns volume, area, centroid and inertia of the solid, for a density of 1. It takes
+        some times as long as the volume alone."""
+        return measures.mass(self._handle, relative_width, seconds)
+
+    def contains(self, points: ArrayLike) -> NDArray[np.int8]:
+        """Says of points, in an array of ... x 3 numbers, where they are: 1 inside of the solid, 0
+        on its surface, as far as rounding of its equations lets one know, and -1 outside."""
+        return measures.sides(self._handle, points_of(points, "contains: points"))
 
     @property
     def primitive_count(self) -> int:

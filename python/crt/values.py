@@ -289,6 +289,15 @@ class ToneMap(enum.IntEnum):
     FILMIC = 1
 
 
+class Unit(enum.IntEnum):
+    """Says what a scene unit is."""
+
+    M = 0
+    CM = 1
+    MM = 2
+    IN = 3
+
+
 class Precision(enum.IntEnum):
     """Says how close calls of the geometry are decided."""
 
@@ -303,6 +312,7 @@ class Precision(enum.IntEnum):
     precision=Precision,
     filter=PixelFilter,
     tone_map=ToneMap,
+    unit=Unit,
 )
 class Settings(Struct):
     """Settings say how a scene is rendered."""

@@ -948,6 +948,15 @@ class ToneMap(enum.IntEnum):
     NONE = 0
     FILMIC = 1
 
+UnitName = Literal["m", "cm", "mm", "in"]
+
+class Unit(enum.IntEnum):
+    """Says what a scene unit is."""
+    M = 0
+    CM = 1
+    MM = 2
+    IN = 3
+
 PrecisionName = Literal["standard", "exact"]
 
 class Precision(enum.IntEnum):
@@ -1007,6 +1016,8 @@ class Settings(_Struct):
       is claimed of the picture's accuracy. Default 0. Since 1.1.
     - denoise (int): Not 0: the finished picture is freed of noise, and nothing is claimed of its
       accuracy. Default 0. Since 1.1.
+    - unit (Unit, or its name): a Unit: what a scene unit is, which neither the geometry nor the
+      picture knows; default Unit.M. Since 1.1.
     """
     width: int
     height: int
@@ -1039,6 +1050,7 @@ class Settings(_Struct):
     exposure: float
     clamp: float
     denoise: int
+    unit: Unit | int | UnitName
     def __init__(
         self,
         *,
@@ -1073,6 +1085,7 @@ class Settings(_Struct):
         exposure: SupportsFloat = ...,
         clamp: SupportsFloat = ...,
         denoise: SupportsIndex = ...,
+        unit: Unit | int | UnitName = ...,
     ) -> None: ...
     def set(
         self,
@@ -1108,6 +1121,7 @@ class Settings(_Struct):
         exposure: SupportsFloat = ...,
         clamp: SupportsFloat = ...,
         denoise: SupportsIndex = ...,
+        unit: Unit | int | UnitName = ...,
     ) -> None: ...
 
 class RenderStats(_Struct):

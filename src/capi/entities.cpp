@@ -276,19 +276,6 @@ crt_status crt_entity_describe(crt_entity* entity, char* json, size_t capacity, 
   });
 }
 
-crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double upper[3]) {
-  return guarded([&] {
-    require(entity, "entity");
-    require(lower, "lower");
-    require(upper, "upper");
-    const crt::BoundingBox box = crt::bounding_box(entity->value);
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = box.lower[axis];
-      upper[axis] = box.upper[axis];
-    }
-  });
-}
-
 uint64_t crt_entity_primitive_count(const crt_entity* entity) {
   return entity == nullptr ? 0 : entity->value.primitive_count();
 }

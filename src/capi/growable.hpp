@@ -25,7 +25,12 @@ constexpr CField c_field(std::string_view name, std::size_t offset, std::size_t 
   return {name, offset, size};
 }
 
-/// Lists the fields of a struct in order. structs.cpp defines it for every growable struct.
+// A field missing in a list would be read and written with the next one; the test of the layout
+// finds it.
+#define CRT_FIELD(Struct, field) \
+  c_field(#field, offsetof(Struct, field), sizeof(decltype(Struct::field)))
+
+/// Lists the fields of a struct in order. structs.cpp defines it for most growable structs.
 template <class Struct>
 std::span<const CField> c_fields();
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -50,6 +51,21 @@ inline Ray to_ray(const std::byte* place) {
   Ray ray;
   std::memcpy(&ray, place, sizeof ray);
   return ray;
+}
+
+/// Copies points out of the caller's memory. Throws for one that is not finite, and names its
+/// index.
+inline std::vector<Vec3> to_points(const double* points, std::size_t stride, std::size_t count) {
+  const Places<const std::byte> places(reinterpret_cast<const std::byte*>(points), stride,
+                                       sizeof(Vec3), count, "points");
+  std::vector<Vec3> copies(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Vec3& point = copies[i];
+    std::memcpy(&point, places[i], sizeof point);
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
+      reject(text::format("points[{}]", i), "must be finite");
+  }
+  return copies;
 }
 
 /// This is the number of rays that are asked at a time, and copied out of the caller's memory if

@@ -32,6 +32,7 @@ static_assert(static_cast<int>(FalloffModel::light) == CRT_FALLOFF_LIGHT);
 static_assert(static_cast<int>(AmbientModel::surface) == CRT_AMBIENT_SURFACE);
 static_assert(static_cast<int>(ToneMap::filmic) == CRT_TONE_MAP_FILMIC);
 static_assert(static_cast<int>(Precision::exact) == CRT_PRECISION_EXACT);
+static_assert(static_cast<int>(Unit::in) == CRT_UNIT_IN);
 static_assert(static_cast<int>(PixelFilter::blackman_harris) == CRT_FILTER_BLACKMAN_HARRIS);
 
 Settings to_settings(const crt_settings* settings) {

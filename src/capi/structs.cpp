@@ -1,11 +1,6 @@
 // This file lists the fields of the growable structs, and has their crt_*_init functions.
 #include "capi/structs.hpp"
 
-// A field missing here would be read and written with the next one; the test of the layout finds
-// it.
-#define CRT_FIELD(Struct, field) \
-  c_field(#field, offsetof(Struct, field), sizeof(decltype(Struct::field)))
-
 namespace crt::capi {
 
 template <>
@@ -139,19 +134,41 @@ std::span<const CField> c_fields<crt_background>() {
 template <>
 std::span<const CField> c_fields<crt_settings>() {
   using S = crt_settings;
-  static constexpr std::array fields = {
-      CRT_FIELD(S, width),        CRT_FIELD(S, height),          CRT_FIELD(S, supersampling),
-      CRT_FIELD(S, dof_samples),  CRT_FIELD(S, recursion_depth), CRT_FIELD(S, gamma),
-      CRT_FIELD(S, min_weight),   CRT_FIELD(S, falloff_model),   CRT_FIELD(S, show_clip),
-      CRT_FIELD(S, seed),         CRT_FIELD(S, title),           CRT_FIELD(S, author),
-      CRT_FIELD(S, date),         CRT_FIELD(S, notes),           CRT_FIELD(S, precision),
-      CRT_FIELD(S, reserved),     CRT_FIELD(S, target_error),    CRT_FIELD(S, time_budget),
-      CRT_FIELD(S, filter_width), CRT_FIELD(S, min_samples),     CRT_FIELD(S, max_samples),
-      CRT_FIELD(S, filter),       CRT_FIELD(S, reserved_2),      CRT_FIELD(S, compat),
-      CRT_FIELD(S, reserved_3),   CRT_FIELD(S, ambient_model),   CRT_FIELD(S, no_head_light),
-      CRT_FIELD(S, indirect),     CRT_FIELD(S, light_samples),   CRT_FIELD(S, tone_map),
-      CRT_FIELD(S, cutoff),       CRT_FIELD(S, exposure),        CRT_FIELD(S, clamp),
-      CRT_FIELD(S, denoise),      CRT_FIELD(S, reserved_4)};
+  static constexpr std::array fields = {CRT_FIELD(S, width),
+                                        CRT_FIELD(S, height),
+                                        CRT_FIELD(S, supersampling),
+                                        CRT_FIELD(S, dof_samples),
+                                        CRT_FIELD(S, recursion_depth),
+                                        CRT_FIELD(S, gamma),
+                                        CRT_FIELD(S, min_weight),
+                                        CRT_FIELD(S, falloff_model),
+                                        CRT_FIELD(S, show_clip),
+                                        CRT_FIELD(S, seed),
+                                        CRT_FIELD(S, title),
+                                        CRT_FIELD(S, author),
+                                        CRT_FIELD(S, date),
+                                        CRT_FIELD(S, notes),
+                                        CRT_FIELD(S, precision),
+                                        CRT_FIELD(S, reserved),
+                                        CRT_FIELD(S, target_error),
+                                        CRT_FIELD(S, time_budget),
+                                        CRT_FIELD(S, filter_width),
+                                        CRT_FIELD(S, min_samples),
+                                        CRT_FIELD(S, max_samples),
+                                        CRT_FIELD(S, filter),
+                                        CRT_FIELD(S, reserved_2),
+                                        CRT_FIELD(S, compat),
+                                        CRT_FIELD(S, reserved_3),
+                                        CRT_FIELD(S, ambient_model),
+                                        CRT_FIELD(S, no_head_light),
+                                        CRT_FIELD(S, indirect),
+                                        CRT_FIELD(S, light_samples),
+                                        CRT_FIELD(S, tone_map),
+                                        CRT_FIELD(S, cutoff),
+                                        CRT_FIELD(S, exposure),
+                                        CRT_FIELD(S, clamp),
+                                        CRT_FIELD(S, denoise),
+                                        CRT_FIELD(S, unit)};
   return fields;
 }
 

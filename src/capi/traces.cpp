@@ -121,16 +121,8 @@ crt_status crt_locate(crt_prepared* prepared, const double* points, size_t strid
                       uint32_t* entity_ids, uint32_t* part_ids, uint64_t* users) {
   return guarded([&] {
     require(prepared, "prepared");
-    const Places<const std::byte> places(reinterpret_cast<const std::byte*>(points), stride,
-                                         sizeof(crt::Vec3), count, "points");
+    const std::vector<crt::Vec3> questions = to_points(points, stride, count);
     if (count > 0) require(entity_ids, "entity_ids");
-    std::vector<crt::Vec3> questions(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      crt::Vec3& point = questions[i];
-      std::memcpy(&point, places[i], sizeof point);
-      if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-        reject(crt::text::format("points[{}]", i), "must be finite");
-    }
     std::vector<crt::Location> answers(count);
     crt::query_in_parallel(prepared->value, count,
                            [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {

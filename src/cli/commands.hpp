@@ -16,6 +16,12 @@ ExitCode run_watch(const WatchRequest& request);
 /// Measures the accuracy and the time of a script's picture with different settings.
 ExitCode run_trade(const TradeRequest& request);
 
+/// Says how much the entities of a script are, and where.
+ExitCode run_measure(const MeasureRequest& request);
+
+/// Says what rays from standard input meet, or in what points are.
+ExitCode run_ask(const AskRequest& request);
+
 /// Writes a script to begin with.
 ExitCode run_new(const NewRequest& request);
 

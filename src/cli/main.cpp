@@ -19,6 +19,8 @@ struct Run {
   ExitCode operator()(const CheckRequest& request) const { return run_check(request); }
   ExitCode operator()(const NewRequest& request) const { return run_new(request); }
   ExitCode operator()(const TradeRequest& request) const { return run_trade(request); }
+  ExitCode operator()(const MeasureRequest& request) const { return run_measure(request); }
+  ExitCode operator()(const AskRequest& request) const { return run_ask(request); }
   ExitCode operator()(const ExportRequest& request) const { return run_export(request); }
   ExitCode operator()(const FormatRequest& request) const { return run_format(request); }
   ExitCode operator()(const LspRequest& request) const { return run_lsp(request); }

@@ -37,6 +37,8 @@ CommandTable render_table(RenderRequest& request);
 CommandTable farm_table(FarmRequest& request);
 CommandTable watch_table(WatchRequest& request);
 CommandTable trade_table(TradeRequest& request);
+CommandTable measure_table(MeasureRequest& request);
+CommandTable ask_table(AskRequest& request);
 CommandTable check_table(CheckRequest& request);
 CommandTable new_table(NewRequest& request);
 CommandTable export_table(ExportRequest& request);

@@ -38,6 +38,8 @@ constexpr std::string_view main_footer = R"(Examples:
   crt farm plan film.crt --frames 0-99 -o job
                                              splits a film into tasks for many machines
   crt trade scene.crt --budget 10            shows which settings give most for ten seconds
+  crt measure part.crt                       volume, area, bounds and centroid of each entity
+  crt ask scene.crt <rays.csv                what rays meet
   crt check scene.crt                        reports what is wrong with a script, renders nothing
   crt format scene.crt                       lays the script out
   crt export scene.crt -o scene.cpp          writes a program that makes the same picture
@@ -249,6 +251,10 @@ Request parse_command_line(int argc, const char* const* argv) {
   const CLI::App& watch = add_command(app, watch_table(watch_request));
   TradeRequest trade_request;
   const CLI::App& trade = add_command(app, trade_table(trade_request));
+  MeasureRequest measure_request;
+  const CLI::App& measure = add_command(app, measure_table(measure_request));
+  AskRequest ask_request;
+  const CLI::App& ask = add_command(app, ask_table(ask_request));
   CheckRequest check_request;
   const CLI::App& check = add_command(app, check_table(check_request));
   NewRequest new_request;
@@ -283,6 +289,8 @@ Request parse_command_line(int argc, const char* const* argv) {
     return completions_request;
   }
   if (man.parsed()) return ManRequest{describe_all(app)};
+  if (measure.parsed()) return measure_request;
+  if (ask.parsed()) return ask_request;
   if (check.parsed()) return check_request;
   if (create.parsed()) return new_request;
   if (exporting.parsed()) return export_request;

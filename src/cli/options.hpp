@@ -7,6 +7,7 @@
 #include <crt/script.hpp>
 #include <crt/source_code.hpp>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -113,6 +114,33 @@ struct TradeRequest : CommonRequest {
   std::optional<double> error;
 };
 
+/// A MeasureRequest asks how much entities are, and where.
+struct MeasureRequest : CommonRequest {
+  std::filesystem::path scene;
+  // If none of these is asked for, all but the mass are.
+  bool volume = false;
+  bool area = false;
+  bool bounds = false;
+  bool mass = false;  ///< with it the centroid and the inertia
+  double density = 1;
+  double relative_width = 1e-4;
+  double seconds = std::numeric_limits<double>::infinity();  ///< that each number may take
+  int threads = 0;
+  bool json = false;
+
+  bool asks_for_some() const { return volume || area || bounds || mass; }
+};
+
+/// Says what is asked of a script's scene.
+enum class Question { intersect, crossings, contains };
+
+/// An AskRequest asks rays or points from standard input.
+struct AskRequest : CommonRequest {
+  std::filesystem::path scene;
+  std::optional<Question> question;  ///< without it: intersect
+  int threads = 0;
+};
+
 struct NewRequest : CommonRequest {
   std::filesystem::path scene;
 };
@@ -160,8 +188,8 @@ struct ManRequest {
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
 using Request = std::variant<RenderRequest, FarmRequest, WatchRequest, CheckRequest, TradeRequest,
-                             NewRequest, ExportRequest, FormatRequest, LspRequest, StudioRequest,
-                             CompletionsRequest, ManRequest, ExitCode>;
+                             MeasureRequest, AskRequest, NewRequest, ExportRequest, FormatRequest,
+                             LspRequest, StudioRequest, CompletionsRequest, ManRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

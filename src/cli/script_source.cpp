@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -40,6 +42,12 @@ ScriptSource::ScriptSource(std::filesystem::path file, const ScriptLimits& limit
 
 std::string ScriptSource::name() const {
   return text_ ? "<standard input>" : file_.string();
+}
+
+std::string ScriptSource::text() const {
+  if (text_) return *text_;
+  std::ifstream file(file_, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 ScriptResult ScriptSource::run(const ScriptOptions& options) const {

@@ -18,6 +18,8 @@ class ScriptSource {
   std::string name() const;
   bool is_standard_input() const { return text_.has_value(); }
   const std::filesystem::path& file() const { return file_; }
+  /// Returns the text, or nothing if the file cannot be read.
+  std::string text() const;
 
   /// Runs the script. A file is read each time.
   ScriptResult run(const ScriptOptions& options) const;

@@ -45,7 +45,8 @@ std::span<const Builtin> builtins() {
   static const std::vector<Builtin> all = [] {
     std::vector<Builtin> result;
     for (const std::span<const Builtin> part :
-         {number_builtins(), vector_builtins(), list_builtins(), contour_builtins()})
+         {number_builtins(), vector_builtins(), list_builtins(), contour_builtins(),
+          measure_builtins()})
       result.insert(result.end(), part.begin(), part.end());
     return result;
   }();

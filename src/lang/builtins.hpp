@@ -68,5 +68,6 @@ std::span<const Builtin> number_builtins();
 std::span<const Builtin> vector_builtins();
 std::span<const Builtin> list_builtins();
 std::span<const Builtin> contour_builtins();
+std::span<const Builtin> measure_builtins();
 
 }  // namespace crt::lang

@@ -160,7 +160,7 @@ AT(crt_settings, cutoff, 164);
 AT(crt_settings, exposure, 168);
 AT(crt_settings, clamp, 176);
 AT(crt_settings, denoise, 184);
-AT(crt_settings, reserved_4, 188);
+AT(crt_settings, unit, 188);
 
 SIZE(crt_script_options, 208);
 AT(crt_script_options, struct_size, 0);

@@ -28,6 +28,9 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   std::uint8_t byte = 9;
   std::size_t count = 9;
   double corner[3];
+  std::int8_t side = 0;
+  crt_mass mass;
+  crt_mass_init(&mass, sizeof mass);
   crt_light light;
   crt_light_init(&light, sizeof light);
   const ProfileHandle square = square_profile();
@@ -129,6 +132,16 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"entity", [&] { return crt_entity_bounds(nullptr, corner, corner); }},
       {"lower", [&] { return crt_entity_bounds(ball.get(), nullptr, corner); }},
       {"upper", [&] { return crt_entity_bounds(ball.get(), corner, nullptr); }},
+      {"the struct", [&] { return crt_mass_init(nullptr, sizeof(crt_mass)); }},
+      {"entity", [&] { return crt_entity_mass(nullptr, 1, 0, &mass); }},
+      {"out", [&] { return crt_entity_mass(ball.get(), 1, 0, nullptr); }},
+      {"entity", [&] { return crt_entity_volume(nullptr, 1, 0, &mass.volume); }},
+      {"out", [&] { return crt_entity_volume(ball.get(), 1, 0, nullptr); }},
+      {"entity", [&] { return crt_entity_area(nullptr, 1, 0, &mass.area); }},
+      {"out", [&] { return crt_entity_area(ball.get(), 1, 0, nullptr); }},
+      {"entity", [&] { return crt_entity_contains(nullptr, z, 0, 1, &side); }},
+      {"points", [&] { return crt_entity_contains(ball.get(), nullptr, 0, 1, &side); }},
+      {"side", [&] { return crt_entity_contains(ball.get(), z, 0, 1, nullptr); }},
       {"prepared", [&] { return crt_hit_parts(nullptr, nullptr, 0, 0, nullptr, 0); }},
       {"rays", [&] { return crt_hit_parts(prepared.get(), nullptr, 0, 1, nullptr, 0); }},
       {"parts", [&] { return crt_hit_parts(prepared.get(), &ray, 0, 1, nullptr, 0); }},

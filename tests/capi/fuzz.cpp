@@ -11,46 +11,18 @@
 #include "fuzz_custom.hpp"
 #include "fuzz_farm.hpp"
 #include "fuzz_input.hpp"
+#include "fuzz_measures.hpp"
+#include "fuzz_slots.hpp"
 #include "fuzz_traces.hpp"
 
 namespace {
 
 using crt::test::ask_farm;
 using crt::test::Input;
+using crt::test::measure_entity;
 using crt::test::require;
 using crt::test::scrambled;
-
-/// Slots hold a few handles of one kind. The newest takes the place of the oldest.
-template <class Handle, auto release>
-class Slots {
- public:
-  ~Slots() {
-    for (Handle* handle : slots_) release(handle);
-  }
-
-  /// Returns any of them, possibly NULL.
-  Handle* any(Input& input) const { return slots_[input.below(count)]; }
-
-  template <class Call>
-  void make(const Call& call) {
-    Handle* out = nullptr;
-    const crt_status status = call(&out);
-    require((status == CRT_OK) == (out != nullptr));
-    require(crt_error_message() != nullptr);
-    if (status == CRT_OK) keep(out);
-  }
-
-  void keep(Handle* handle) {
-    release(slots_[next_]);
-    slots_[next_] = handle;
-    next_ = (next_ + 1) % count;
-  }
-
- private:
-  static constexpr std::uint32_t count = 6;
-  std::array<Handle*, count> slots_{};
-  std::uint32_t next_ = 0;
-};
+using crt::test::Slots;
 
 class Session {
  public:
@@ -58,7 +30,7 @@ class Session {
 
   void run() {
     constexpr int max_calls = 200;
-    for (int i = 0; i < max_calls && !input_.empty(); ++i) call(input_.below(32));
+    for (int i = 0; i < max_calls && !input_.empty(); ++i) call(input_.below(33));
   }
 
  private:
@@ -439,6 +411,7 @@ void Session::call(std::uint32_t which) {
   if (which < 29) return use_prepared();
   if (which < 30) return use_image();
   if (which < 31) return images_.make([&](crt_image** out) { return ask_farm(input_, out); });
+  if (which < 32) return measure_entity(input_, entities_.any(input_));
   run_script();
 }
 

@@ -13,6 +13,8 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
   const double heights[4] = {0.5, 1, 0, 0.25};
   const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
   const ProfileHandle square = square_profile();
+  crt_mass mass;
+  CHECK(crt_mass_init(&mass, sizeof mass) == CRT_OK);
   for (const double bad : {not_a_number, infinity, -infinity}) {
     for (int axis = 0; axis < 3; ++axis) {
       Numbers v = {1, 2, 3};
@@ -98,8 +100,22 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
         {"color", [&] { return crt_scene_set_background(scene.get(), &background); }},
         {"absorption", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},
         {"t", [&] { return crt_scene_from_script("", 0, "x", &options, nullptr, &made_scene); }},
+        {"relative_width", [&] { return crt_entity_volume(ball.get(), bad, 0, &mass.volume); }},
+        {"relative_width", [&] { return crt_entity_area(ball.get(), bad, 0, &mass.area); }},
+        {"relative_width", [&] { return crt_entity_mass(ball.get(), bad, 0, &mass); }},
     });
     CHECK(out == nullptr);
+  }
+  for (const double bad : {0.0, -1e-6, 1.5}) {
+    check_all(
+        {{"relative_width", [&] { return crt_entity_volume(ball.get(), bad, 0, &mass.volume); }}});
+  }
+  for (const double bad : {-1.0, -infinity, not_a_number}) {
+    check_all({
+        {"seconds", [&] { return crt_entity_volume(ball.get(), 0.1, bad, &mass.volume); }},
+        {"seconds", [&] { return crt_entity_area(ball.get(), 0.1, bad, &mass.area); }},
+        {"seconds", [&] { return crt_entity_mass(ball.get(), 0.1, bad, &mass); }},
+    });
   }
   CHECK(crt_scene_light_count(scene.get()) == 0);
 }
@@ -125,6 +141,9 @@ TEST_CASE("a number that no enumeration has is refused, with the field's name") 
     crt_settings precise;
     crt_settings_init(&precise, sizeof precise);
     precise.precision = bad;
+    crt_settings of_no_unit;
+    crt_settings_init(&of_no_unit, sizeof of_no_unit);
+    of_no_unit.unit = bad;
     crt_settings toned;
     crt_settings_init(&toned, sizeof toned);
     toned.tone_map = bad;
@@ -146,6 +165,7 @@ TEST_CASE("a number that no enumeration has is refused, with the field's name") 
         {"tone_map", [&] { return crt_scene_set_settings(scene.get(), &toned); }},
         {"falloff_model", [&] { return crt_scene_set_settings(scene.get(), &settings); }},
         {"precision", [&] { return crt_scene_set_settings(scene.get(), &precise); }},
+        {"unit", [&] { return crt_scene_set_settings(scene.get(), &of_no_unit); }},
         {"type", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},
         {"type", [&] { return crt_entity_with_material(ball.get(), &bumpy, &out); }},
         {"type", [&] { return crt_light_init_type(&light, sizeof light, bad); }},

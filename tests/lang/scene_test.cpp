@@ -40,7 +40,7 @@ TEST_CASE("all settings arrive") {
     lightsamples -> 9 indirect -> 6 cutoff -> "black"
     targeterror -> 0.25 timebudget -> 1.5 minsamples -> 32 maxsamples -> 64
     filter -> "blackmanharris" filterwidth -> 2.5 showclip -> true seed -> 77
-    precision -> "exact" projection -> "cylindrical"
+    precision -> "exact" projection -> "cylindrical" unit -> "mm"
   } Scene { })");
   const crt::Settings& settings = scene.settings;
   CHECK(settings.title == "T");
@@ -71,6 +71,7 @@ TEST_CASE("all settings arrive") {
   CHECK(settings.show_clip);
   CHECK(settings.seed == 77);
   CHECK(settings.precision == crt::Precision::exact);
+  CHECK(settings.unit == crt::Unit::mm);
   CHECK(scene.camera.projection == crt::Projection::cylindrical);
 }
 

@@ -139,6 +139,7 @@ class Structs(unittest.TestCase):
             "crt_pixel_filter": crt.PixelFilter,
             "crt_falloff_model": crt.FalloffModel,
             "crt_precision": crt.Precision,
+            "crt_unit": crt.Unit,
             "crt_farm_task_state": farm.TaskState,
         }
         for name, ours in pairs.items():
@@ -158,7 +159,7 @@ class Structs(unittest.TestCase):
                     field = declaration.split()[-1]
                     self.assertIs(thing._enums[field], getattr(crt, named[1]), field)
                     found += 1
-        self.assertEqual(found, 10)
+        self.assertEqual(found, 11)
         self.assertIs(crt.Camera().projection, crt.Projection.PINHOLE)
         self.assertEqual(repr(crt.Settings(precision=99).precision), "99")
 

@@ -9,6 +9,7 @@ from support import SOURCE
 sys.path.insert(0, str(SOURCE / "examples/python"))
 import golf  # noqa: E402
 import histories  # noqa: E402
+import tutorial_measure  # noqa: E402
 import tutorial_rays  # noqa: E402
 import tutorial_render  # noqa: E402
 import tutorial_scene  # noqa: E402
@@ -75,6 +76,14 @@ class Tutorial(unittest.TestCase):
         self.assertAlmostEqual(heights.max(), 3)
         self.assertAlmostEqual(heights[-2, 1], 0.3)
         self.assertEqual(heights[28, 15], 0)  # a hole
+
+    def test_a_bracket_is_measured_with_the_digits_that_are_sure(self):
+        size, mass, centroid = tutorial_measure.report(tutorial_scene.bracket())
+        self.assertEqual(size, "size: 4.00 x 3.00 x 3.00 m")
+        self.assertTrue(mass.startswith("mass: 43.88 t, to 0.00"))
+        self.assertTrue(centroid.endswith("0.00, 0.59, 0.55"))
+        share = tutorial_measure.share_inside(tutorial_scene.bracket(), 20_000)
+        self.assertAlmostEqual(share, 5.58936 / 36, delta=0.01)
 
     def test_a_render_is_watched_and_may_be_stopped(self):
         scene = small(tutorial_scene.bracket_scene())

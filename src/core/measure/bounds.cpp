@@ -36,8 +36,8 @@ class ExtentSearch {
   double run() {
     for (std::uint32_t i = 0; i < solids_.size(); ++i)
       add({solids_[i].cell(first_box(solids_[i].bounds())), i, infinity});
-    while (!cells_.empty() && cells_.front().most > surely_ + width_ && looks_ < most_looks &&
-           !clock_.is_over()) {
+    while (!cells_.empty() && looks_ < solids_.size() + most_looks &&
+           cells_.front().most > surely_ + width_ && !clock_.is_over()) {
       std::pop_heap(cells_.begin(), cells_.end(), less);
       const ReachingCell whole = std::move(cells_.back());
       cells_.pop_back();
@@ -55,13 +55,15 @@ class ExtentSearch {
   }
 
  private:
-  static bool less(const ReachingCell& a, const ReachingCell& b) { return a.most < b.most; }
-
-  /// Solids that merely touch may leave any number of cells open.
+  /// What no equations bound, such as custom shapes, and what is thinner than its own rounding
+  /// would be divided for ever. So a side ends after so many looks at cells, and one at each solid.
   static constexpr std::size_t most_looks = std::size_t{1} << 16;
+
+  static bool less(const ReachingCell& a, const ReachingCell& b) { return a.most < b.most; }
 
   void add(ReachingCell&& open) {
     ++looks_;
+    clock_.count(open.cell.program->leaves.size());
     const CellSolid& solid = solids_[open.object];
     const CellLook look = solid.look(open.cell);
     const CellReach reach = reach_of(open.cell.box, look, direction_);

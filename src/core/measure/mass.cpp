@@ -79,8 +79,10 @@ class MassSearch {
  private:
   static constexpr std::size_t most_cells = std::size_t{1} << 20;
   static constexpr std::size_t cells_of_task = 32;
+  /// What is found of a cell takes as long as so many looks at a leaf.
+  static constexpr std::uint64_t looks_of_cell = 4;
   /// Time is looked at after so many.
-  static constexpr std::size_t cells_of_round = std::size_t{1} << 14;
+  static constexpr std::size_t cells_of_round = std::size_t{1} << 13;
 
   void look_at(OpenCell& open) const {
     const CellSolid& solid = solids_[open.object];
@@ -148,6 +150,9 @@ class MassSearch {
         for (OpenCell& part : parts[i]) look_at(part);
       }
     });
+    std::uint64_t looks = 0;
+    for (std::size_t i = 0; i < some; ++i)
+      looks += parts[i].size() * (cells[i].cell.program->leaves.size() + looks_of_cell);
     std::vector<OpenCell> next(
         std::make_move_iterator(cells.begin() + static_cast<std::ptrdiff_t>(some)),
         std::make_move_iterator(cells.end()));
@@ -155,6 +160,7 @@ class MassSearch {
       if (parts[i].empty()) done_ += cells[i].mass.part;  // it cannot be divided
       for (OpenCell& part : parts[i]) next.push_back(std::move(part));
     }
+    clock_.count(looks);
     cells = std::move(next);
   }
 

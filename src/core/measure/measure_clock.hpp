@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <functional>
 
 #include "core/tasks/workers.hpp"
 #include "crt/measure.hpp"
@@ -14,9 +16,16 @@ void validate(const MeasureOptions& options);
 class MeasureClock {
  public:
   explicit MeasureClock(const MeasureOptions& options)
-      : stop_(options.go_on, "measuring"), seconds_(options.seconds), threads_(options.threads) {}
+      : stop_(options.go_on, "measuring"),
+        work_(options.work),
+        seconds_(options.seconds),
+        threads_(options.threads) {}
 
   Workers workers() { return {threads_, &stop_}; }
+  /// Reports looks at leaves of solids. What whoever asked throws comes out.
+  void count(std::uint64_t looks) {
+    if (work_) work_(looks);
+  }
   /// Asks now and then whether to continue, and returns whether the time is over.
   bool is_over() {
     stop_.poll();
@@ -26,6 +35,7 @@ class MeasureClock {
 
  private:
   StopCheck stop_;
+  std::function<void(std::uint64_t)> work_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double seconds_;
   int threads_;

@@ -206,6 +206,20 @@ TEST_CASE("making, combining and placing entities") {
   });
 }
 
+TEST_CASE("measuring") {
+  const EntityHandle a = sphere(zero, 1);
+  const EntityHandle b = box(zero, {1, 1, 1});
+  const EntityHandle part = difference(a.get(), b.get());
+  crt_mass mass;
+  crt_mass_init(&mass, sizeof mass);
+  check_every_failure([&] { return crt_entity_mass(part.get(), 0.2, 0, &mass); });
+  double lower[3];
+  double upper[3];
+  check_every_failure([&] { return crt_entity_bounds(part.get(), lower, upper); });
+  std::int8_t side = 0;
+  check_every_failure([&] { return crt_entity_contains(part.get(), lower, 0, 1, &side); });
+}
+
 TEST_CASE("putting a scene together and copying it") {
   const EntityHandle ball = sphere(zero, 1);
   crt_light light;

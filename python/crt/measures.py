@@ -1,0 +1,116 @@
+"""Measures of solids are intervals that surely hold the truth: how much a solid is, and where.
+
+    volume = (crt.Box((0, 0, 0), (2, 1, 2)) - crt.Sphere((1, 1, 1), 0.5)).volume()
+    print(volume.middle, "within", volume.width)
+"""
+
+import ctypes
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple, SupportsFloat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arguments
+from ._handles import Reference
+from ._library import library
+
+
+class Interval(NamedTuple):
+    """An Interval holds a number: lower <= it <= upper."""
+
+    lower: float
+    upper: float
+
+    @property
+    def middle(self) -> float:
+        """Returns the number half-way."""
+        return 0.5 * self.lower + 0.5 * self.upper
+
+    @property
+    def width(self) -> float:
+        """Returns how far the ends are apart."""
+        return self.upper - self.lower
+
+    def __contains__(self, number: object) -> bool:
+        """Says whether a number is in it."""
+        return self.lower <= _arguments.number(number, "Interval: number") <= self.upper
+
+
+@dataclass(frozen=True)
+class Mass:
+    """Mass has the mass properties of a solid of density 1, in scene units."""
+
+    volume: Interval
+    area: Interval  # of the surface
+    centroid: tuple[Interval, Interval, Interval]
+    # About the centroid: xx, yy, zz, xy, yz, zx. The last three are integrals of -x y, -y z, -z x.
+    inertia: tuple[Interval, Interval, Interval, Interval, Interval, Interval]
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """Returns the middles of the centroid."""
+        return np.array([number.middle for number in self.centroid])
+
+    @property
+    def inertia_tensor(self) -> NDArray[np.float64]:
+        """Returns the middles of the inertia as a symmetric 3 x 3 matrix."""
+        xx, yy, zz, xy, yz, zx = (number.middle for number in self.inertia)
+        return np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
+
+
+class _Interval(ctypes.Structure):
+    _fields_ = [("lower", ctypes.c_double), ("upper", ctypes.c_double)]
+
+    def plain(self) -> Interval:
+        return Interval(self.lower, self.upper)
+
+
+class _Mass(ctypes.Structure):
+    """This is crt_mass of crt.h."""
+
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+        ("volume", _Interval),
+        ("area", _Interval),
+        ("centroid", _Interval * 3),
+        ("inertia", _Interval * 6),
+    ]
+
+
+def _options(
+    name: str, relative_width: SupportsFloat, seconds: SupportsFloat | None
+) -> tuple[float, float]:
+    width = _arguments.number(relative_width, f"{name}: relative_width")
+    if seconds is None:
+        return width, math.inf
+    return width, _arguments.number(seconds, f"{name}: seconds")
+
+
+def interval(
+    name: str, entity: Reference, relative_width: SupportsFloat, seconds: SupportsFloat | None
+) -> Interval:
+    """Returns what crt_entity_volume() or the like gives."""
+    found = _Interval()
+    call = getattr(library, f"crt_entity_{name}")
+    call(entity, *_options(name, relative_width, seconds), ctypes.byref(found))
+    return found.plain()
+
+
+def mass(entity: Reference, relative_width: SupportsFloat, seconds: SupportsFloat | None) -> Mass:
+    """Returns the mass properties of a solid."""
+    found = _Mass(struct_size=ctypes.sizeof(_Mass))
+    options = _options("mass", relative_width, seconds)
+    library.crt_entity_mass(entity, *options, ctypes.byref(found))
+    centroid: Any = tuple(number.plain() for number in found.centroid)
+    inertia: Any = tuple(number.plain() for number in found.inertia)
+    return Mass(found.volume.plain(), found.area.plain(), centroid, inertia)
+
+
+def sides(entity: Reference, points: NDArray[np.float64]) -> NDArray[np.int8]:
+    """Returns where points are: 1 inside, 0 on the surface, -1 outside."""
+    out = np.empty(points.shape[:-1], np.int8)
+    library.crt_entity_contains(entity, points.ctypes.data, 0, out.size, out.ctypes.data)
+    return out

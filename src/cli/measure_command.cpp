@@ -1,0 +1,232 @@
+// `crt measure` says how much the entities of a script are, and where.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <crt/measure.hpp>
+#include <crt/schema_settings.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/intervals.hpp"
+#include "cli/measured.hpp"
+#include "cli/picture_renderer.hpp"
+#include "cli/reporter.hpp"
+
+namespace crt::cli {
+
+namespace {
+
+bool is_finite(const Interval& number) {
+  return std::isfinite(number.lower) && std::isfinite(number.upper);
+}
+
+/// Finds the numbers of one entity that were asked for, and no others.
+class EntityMeasuring {
+ public:
+  EntityMeasuring(const MeasureRequest& request, MeasureOptions options)
+      : request_(request), options_(std::move(options)), all_(!request.asks_for_some()) {}
+
+  Measured measure(const Entity& entity, const std::string& name) const {
+    Measured found{.name = name,
+                   .fault = "",
+                   .bounds = {},
+                   .volume = {},
+                   .area = {},
+                   .mass = {},
+                   .centroid = {},
+                   .inertia = {}};
+    if (all_ || request_.bounds) found.bounds = tight_bounding_box(entity, options_);
+    try {
+      measure_mass(entity, found);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::invalid_argument) throw;
+      found.fault = error.what();
+    }
+    return found;
+  }
+
+ private:
+  void measure_mass(const Entity& entity, Measured& found) const {
+    if (all_ || request_.mass) {
+      const MassProperties properties = mass_properties(entity, options_);
+      found.volume = properties.volume;
+      if (all_ || request_.area) found.area = properties.area;
+      if (std::ranges::all_of(properties.centroid, is_finite)) found.centroid = properties.centroid;
+      if (!request_.mass) return;
+      const Interval density{request_.density, request_.density};
+      found.mass = product_of(properties.volume, density);
+      found.inertia = properties.inertia;
+      for (Interval& number : *found.inertia) number = product_of(number, density);
+      return;
+    }
+    if (request_.volume) found.volume = volume(entity, options_);
+    if (request_.area) found.area = surface_area(entity, options_);
+  }
+
+  const MeasureRequest& request_;
+  MeasureOptions options_;
+  bool all_;
+};
+
+// ---- all together ---------------------------------------------------------------------------
+
+void add(std::optional<Interval>& sum, const std::optional<Interval>& part) {
+  if (part) sum = sum_of(sum.value_or(Interval{}), *part);
+}
+
+void include(std::optional<BoundingBox>& all, const std::optional<BoundingBox>& part) {
+  if (!part || is_empty(*part)) return;
+  if (!all) all = part;
+  for (int axis = 0; axis < 3; ++axis) {
+    all->lower[axis] = std::min(all->lower[axis], part->lower[axis]);
+    all->upper[axis] = std::max(all->upper[axis], part->upper[axis]);
+  }
+}
+
+/// Finds the centroid of all: the mean of theirs, by their volumes.
+std::optional<std::array<Interval, 3>> common_centroid(const std::vector<Measured>& parts,
+                                                       const Interval& volume) {
+  if (!(volume.lower > 0)) return {};
+  std::array<Interval, 3> sum{};
+  for (const Measured& part : parts) {
+    if (!part.volume || !part.centroid) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      sum[i] = sum_of(sum[i], product_of(*part.volume, (*part.centroid)[i]));
+  }
+  for (Interval& number : sum) number = quotient_of(number, volume);
+  return sum;
+}
+
+Measured sum_of(const std::vector<Measured>& parts) {
+  Measured sum;
+  std::size_t count = 0;
+  for (const Measured& part : parts) {
+    include(sum.bounds, part.bounds);
+    add(sum.volume, part.volume);
+    add(sum.area, part.area);
+    add(sum.mass, part.mass);
+    if (part.fault.empty()) ++count;
+  }
+  sum.name = fmt::format("sum of {} of {} entities (overlaps count for each)", count, parts.size());
+  if (sum.volume) sum.centroid = common_centroid(parts, *sum.volume);
+  return sum;
+}
+
+// ---- as text --------------------------------------------------------------------------------
+
+std::string vector_text(const Vec3& place, double width, bool up) {
+  return fmt::format("({}, {}, {})", end_text(place.x, width, up), end_text(place.y, width, up),
+                     end_text(place.z, width, up));
+}
+
+std::string box_text(const BoundingBox& box, double relative_width, std::string_view unit) {
+  if (is_empty(box)) return "none: it is empty";
+  double size = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    size = std::max(size, 0.5 * box.upper[axis] - 0.5 * box.lower[axis]);
+  const double width = std::isfinite(size) ? relative_width * size : 0;
+  return fmt::format("{} to {} {}", vector_text(box.lower, width, false),
+                     vector_text(box.upper, width, true), unit);
+}
+
+std::string centroid_text(const std::array<Interval, 3>& centroid, std::string_view unit) {
+  double width = 0;
+  for (const Interval& number : centroid) width = std::max(width, number.width());
+  return fmt::format("({}, {}, {}) {}, each within {}", number_text(centroid[0]),
+                     number_text(centroid[1]), number_text(centroid[2]), unit,
+                     end_text(width, 100 * width, true));
+}
+
+std::string inertia_text(const std::array<Interval, 6>& inertia) {
+  constexpr std::array names = {"xx", "yy", "zz", "xy", "yz", "zx"};
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += fmt::format("\n    {}      {}, {}", names[i], number_text(inertia[i]),
+                        bounds_text(inertia[i]));
+  }
+  return text;
+}
+
+std::string report(const Measured& found, const MeasureRequest& request, std::string_view unit) {
+  std::string text = found.name + "\n";
+  const auto add_line = [&](std::string_view what, const std::string& value) {
+    text += fmt::format("  {:<9} {}\n", what, value);
+  };
+  const auto add_number = [&](std::string_view what, const std::optional<Interval>& number,
+                              const std::string& unit_of_number) {
+    if (number) add_line(what, number_text(*number) + unit_of_number + ", " + bounds_text(*number));
+  };
+  if (found.bounds) add_line("bounds", box_text(*found.bounds, request.relative_width, unit));
+  if (!found.fault.empty()) add_line("unknown", found.fault);
+  add_number("volume", found.volume, fmt::format(" {}3", unit));
+  add_number("area", found.area, fmt::format(" {}2", unit));
+  add_number("mass", found.mass, "");
+  if (found.centroid) add_line("centroid", centroid_text(*found.centroid, unit));
+  if (found.inertia) add_line("inertia", "about the centroid" + inertia_text(*found.inertia));
+  return text;
+}
+
+// ---- the command ----------------------------------------------------------------------------
+
+void print_text(const MeasureRequest& request, std::string_view unit,
+                const std::vector<Measured>& parts, Reporter& reporter) {
+  std::string text;
+  for (const Measured& part : parts) text += report(part, request, unit);
+  if (parts.size() != 1) text += report(sum_of(parts), request, unit);
+  reporter.print(text, Reporter::IfClosed::fails);
+}
+
+/// Returns the line of the script that an entity is from, from 1 on.
+std::size_t line_of(const std::string& text, const EntityPlace& place) {
+  const std::size_t end = std::min<std::size_t>(place.origin.begin, text.size());
+  return 1 + static_cast<std::size_t>(
+                 std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+}
+
+void measure(const MeasureRequest& request, Reporter& reporter) {
+  const InterruptScope interrupt;
+  const auto go_on = [&] { return !interrupt.interrupted(); };
+  ScriptOptions script_options = request.script;
+  script_options.go_on = go_on;
+  const ScriptSource script(request.scene, request.script.limits);
+  const ScriptResult result = run_scene(script, script_options, false, reporter);
+  if (!result.scene) return;
+  const EntityMeasuring measuring(request, {.relative_width = request.relative_width,
+                                            .seconds = request.seconds,
+                                            .threads = request.threads,
+                                            .go_on = go_on});
+  const std::string text = script.text();
+  std::vector<Measured> parts;
+  for (const Entity& entity : result.scene->entities) {
+    const std::size_t place = parts.size();
+    const std::string name =
+        fmt::format("entity {} (line {})", place, line_of(text, result.entity_places.at(place)));
+    parts.push_back(measuring.measure(entity, name));
+  }
+  const std::string_view unit = schema::script_name_of(result.scene->settings.unit);
+  if (request.json) {
+    reporter.print(measures_json(request, script.name(), unit, parts, sum_of(parts)) + "\n",
+                   Reporter::IfClosed::fails);
+  } else {
+    print_text(request, unit, parts, reporter);
+  }
+}
+
+}  // namespace
+
+ExitCode run_measure(const MeasureRequest& request) {
+  Reporter reporter(request);
+  try {
+    measure(request, reporter);
+  } catch (const Error& error) {
+    reporter.add(error);
+  }
+  return reporter.finish();
+}
+
+}  // namespace crt::cli

@@ -1,0 +1,62 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/measured.hpp"
+
+namespace crt::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What is infinite is null.
+Json json_of(double number) {
+  return std::isfinite(number) ? Json(number) : Json();
+}
+Json json_of(const Interval& number) {
+  return {json_of(number.lower), json_of(number.upper)};
+}
+Json json_of(const Vec3& place) {
+  return {json_of(place.x), json_of(place.y), json_of(place.z)};
+}
+Json json_of(const BoundingBox& box) {
+  if (is_empty(box)) return {};
+  return {{"lower", json_of(box.lower)}, {"upper", json_of(box.upper)}};
+}
+template <std::size_t count>
+Json json_of(const std::array<Interval, count>& numbers) {
+  Json list = Json::array();
+  for (const Interval& number : numbers) list.push_back(json_of(number));
+  return list;
+}
+
+Json json_of(const Measured& found) {
+  Json object = {{"name", found.name}};
+  const auto add_member = [&](const char* name, const auto& value) {
+    if (value) object[name] = json_of(*value);
+  };
+  if (!found.fault.empty()) object["fault"] = found.fault;
+  add_member("bounds", found.bounds);
+  add_member("volume", found.volume);
+  add_member("area", found.area);
+  add_member("mass", found.mass);
+  add_member("centroid", found.centroid);
+  add_member("inertia", found.inertia);
+  return object;
+}
+
+}  // namespace
+
+std::string measures_json(const MeasureRequest& request, const std::string& script,
+                          std::string_view unit, const std::vector<Measured>& parts,
+                          const Measured& sum) {
+  Json object = {{"script", script}, {"unit", unit}, {"relative_width", request.relative_width}};
+  if (request.mass) object["density"] = request.density;
+  object["entities"] = Json::array();
+  for (const Measured& part : parts) object["entities"].push_back(json_of(part));
+  object["sum"] = json_of(sum);
+  // A script's name may be any bytes.
+  return object.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace crt::cli

@@ -1,0 +1,42 @@
+// The fuzzer of the C interface measures solids.
+#pragma once
+
+#include <crt/crt.h>
+
+#include <cstdint>
+
+#include "fuzz_input.hpp"
+
+namespace crt::test {
+
+inline void require_order(const crt_interval& interval) {
+  require(interval.lower <= interval.upper);
+}
+
+/// Asks all that can be asked of an entity, for little time.
+inline void measure_entity(Input& input, crt_entity* entity) {
+  constexpr std::uint64_t enough = 64;
+  if (crt_entity_primitive_count(entity) > enough) return;
+  const auto point = input.vector();
+  double lower[3];
+  double upper[3];
+  crt_entity_bounds(entity, lower, upper);
+  std::int8_t side = 7;
+  const crt_status asked = crt_entity_contains(entity, point.data(), 0, 1, &side);
+  require(asked == CRT_OK ? side >= -1 && side <= 1 : side == 7);
+  constexpr double width = 0.1;
+  constexpr double seconds = 0.01;
+  crt_interval found = {1, -1};
+  const crt_status status =
+      crt_entity_volume(entity, input.below(8) == 0 ? input.number() : width, seconds, &found);
+  if (status == CRT_OK) require_order(found);
+  require(status == CRT_OK || (found.lower == 1 && found.upper == -1));
+  if (crt_entity_area(entity, width, seconds, &found) == CRT_OK) require_order(found);
+  auto mass = scrambled<crt_mass>(input, crt_mass_init);
+  const bool is_whole = mass.struct_size >= sizeof mass;
+  if (crt_entity_mass(entity, width, seconds, &mass) != CRT_OK || !is_whole) return;
+  require_order(mass.volume);
+  for (const crt_interval& number : mass.centroid) require_order(number);
+}
+
+}  // namespace crt::test

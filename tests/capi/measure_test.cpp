@@ -1,0 +1,186 @@
+// Measures of solids through the C interface: intervals that hold the truth, boxes, and points.
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "support.hpp"
+
+using namespace crt::test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+bool holds(const crt_interval& interval, double truth) {
+  return interval.lower <= truth && truth <= interval.upper;
+}
+
+/// Makes half of a torus about the y axis: what is in front of x = 0.
+EntityHandle half_torus() {
+  const Numbers center = {0, 0, 0};
+  const Numbers axis = {0, 1, 0};
+  const EntityHandle whole = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_torus_create(center.data(), axis.data(), 2, 0.5, out); });
+  const EntityHandle back = box({-5, -5, -5}, {0, 5, 5});
+  return difference(whole.get(), back.get());
+}
+
+crt_mass mass_of(crt_entity* entity, double relative_width) {
+  crt_mass mass;
+  REQUIRE(crt_mass_init(&mass, sizeof mass) == CRT_OK);
+  REQUIRE(crt_entity_mass(entity, relative_width, 0, &mass) == CRT_OK);
+  return mass;
+}
+
+}  // namespace
+
+TEST_CASE("mass properties are narrow intervals that hold those of a sphere") {
+  const EntityHandle ball = sphere({1, 2, 3}, 2);
+  const crt_mass mass = mass_of(ball.get(), 1e-6);
+  const double volume = 4.0 / 3 * pi * 8;
+  CHECK(holds(mass.volume, volume));
+  CHECK(mass.volume.upper - mass.volume.lower <= 1e-6 * volume);
+  CHECK(holds(mass.area, 16 * pi));
+  CHECK(mass.area.upper - mass.area.lower <= 1e-6 * 16 * pi);
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(holds(mass.centroid[axis], axis + 1));
+    CHECK(mass.centroid[axis].upper - mass.centroid[axis].lower < 1e-5);
+    CHECK(holds(mass.inertia[axis], 0.4 * volume * 4));
+    CHECK(holds(mass.inertia[axis + 3], 0));
+  }
+}
+
+TEST_CASE("the volume and the area alone are those of the mass properties") {
+  const EntityHandle part = half_torus();
+  crt_interval volume;
+  crt_interval area;
+  REQUIRE(crt_entity_volume(part.get(), 1e-6, 0, &volume) == CRT_OK);
+  REQUIRE(crt_entity_area(part.get(), 1e-6, infinity, &area) == CRT_OK);
+  // By Pappus, half of the ring, and the two discs where it is cut.
+  const double ring = pi * pi * 2 * 0.25;
+  const double surface = 2 * pi * pi * 2 * 0.5 + 2 * pi * 0.25;
+  CHECK(holds(volume, ring));
+  CHECK(volume.upper - volume.lower <= 1e-6 * ring);
+  CHECK(holds(area, surface));
+  CHECK(area.upper - area.lower <= 1e-6 * surface);
+}
+
+TEST_CASE("a width that is asked for is given, and no more work is done for it") {
+  const EntityHandle part = half_torus();
+  for (const double width : {0.5, 1e-2, 1e-4}) {
+    crt_interval volume;
+    REQUIRE(crt_entity_volume(part.get(), width, 0, &volume) == CRT_OK);
+    CHECK(holds(volume, pi * pi * 0.5));
+    CHECK(volume.upper - volume.lower <= width * volume.upper);
+  }
+  // Time that is over at once leaves the box as a bound.
+  crt_interval rough;
+  REQUIRE(crt_entity_volume(part.get(), 1e-12, 1e-9, &rough) == CRT_OK);
+  CHECK(holds(rough, pi * pi * 0.5));
+  CHECK(rough.upper - rough.lower > 1e-12 * rough.upper);
+}
+
+TEST_CASE("the box of what is cut is that of what is left") {
+  const EntityHandle part = half_torus();
+  double lower[3];
+  double upper[3];
+  REQUIRE(crt_entity_bounds(part.get(), lower, upper) == CRT_OK);
+  const double truth_lower[3] = {0, -0.5, -2.5};
+  const double truth_upper[3] = {2.5, 0.5, 2.5};
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(lower[axis] <= truth_lower[axis]);
+    CHECK(lower[axis] >= truth_lower[axis] - 2.51e-6);
+    CHECK(upper[axis] >= truth_upper[axis]);
+    CHECK(upper[axis] <= truth_upper[axis] + 2.51e-6);
+  }
+}
+
+TEST_CASE("boxes of surfaces, of what is infinite and of nothing are given, too") {
+  double lower[3];
+  double upper[3];
+  const EntityHandle disc = made<EntityHandle>([](crt_entity** out) {
+    return crt_disc_create(Numbers{1, 0, 0}.data(), Numbers{1, 0, 0}.data(), 2, out);
+  });
+  REQUIRE(crt_entity_bounds(disc.get(), lower, upper) == CRT_OK);
+  CHECK(lower[1] <= -2);
+  CHECK(upper[1] >= 2);
+  const EntityHandle half = made<EntityHandle>([](crt_entity** out) {
+    return crt_plane_create(Numbers{0, 1, 0}.data(), Numbers{0, 3, 0}.data(), out);
+  });
+  REQUIRE(crt_entity_bounds(half.get(), lower, upper) == CRT_OK);
+  CHECK(lower[1] == -infinity);
+  CHECK(upper[0] == infinity);
+  const EntityHandle ball = sphere({0, 0, 0}, 1);
+  const EntityHandle around = sphere({0, 0, 0}, 2);
+  const EntityHandle nothing = difference(ball.get(), around.get());
+  REQUIRE(crt_entity_bounds(nothing.get(), lower, upper) == CRT_OK);
+  CHECK(lower[0] > upper[0]);
+}
+
+TEST_CASE("points are inside, on the surface or outside, wherever they lie in memory") {
+  const EntityHandle part = half_torus();
+  struct Point {
+    float before;
+    double place[3];
+    int8_t expected;
+  };
+  std::vector<Point> points = {{0, {2, 0, 0}, 1},       {0, {2.5, 0, 0}, 0}, {0, {0, 0, 2}, 0},
+                               {0, {-2, 0, 0}, -1},     {0, {0, 0, 0}, -1},  {0, {1.5, 0, 0}, 0},
+                               {0, {1.75, 0.25, 0}, 1}, {0, {2, 0.5, 0}, 0}};
+  std::vector<std::int8_t> sides(points.size(), 7);
+  REQUIRE(crt_entity_contains(part.get(), points[0].place, sizeof(Point), points.size(),
+                              sides.data()) == CRT_OK);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    INFO(i);
+    CHECK(sides[i] == points[i].expected);
+  }
+  CHECK(crt_entity_contains(part.get(), nullptr, 0, 0, nullptr) == CRT_OK);
+  sides.assign(points.size(), 7);
+  points[5].place[1] = not_a_number;
+  CHECK(crt_entity_contains(part.get(), points[0].place, sizeof(Point), points.size(),
+                            sides.data()) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("points[5]"));
+  for (const std::int8_t side : sides) CHECK(side == 7);
+}
+
+TEST_CASE("what is no solid, or has no end, is not measured, and the message says why") {
+  const EntityHandle disc = made<EntityHandle>([](crt_entity** out) {
+    return crt_disc_create(Numbers{0, 0, 0}.data(), Numbers{1, 0, 0}.data(), 2, out);
+  });
+  const EntityHandle half = made<EntityHandle>([](crt_entity** out) {
+    return crt_plane_create(Numbers{0, 1, 0}.data(), Numbers{0, 3, 0}.data(), out);
+  });
+  crt_interval out = {1, 2};
+  std::int8_t side = 7;
+  const double place[3] = {0, 0, 0};
+  CHECK(crt_entity_volume(disc.get(), 1e-6, 0, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("solid"));
+  CHECK(crt_entity_contains(disc.get(), place, 0, 1, &side) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("solid"));
+  CHECK(crt_entity_volume(half.get(), 1e-6, 0, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("infinite"));
+  CHECK(out.lower == 1);
+  CHECK(out.upper == 2);
+  CHECK(side == 7);
+  // What has no end has an inside.
+  CHECK(crt_entity_contains(half.get(), place, 0, 1, &side) == CRT_OK);
+  CHECK(side == 1);
+}
+
+TEST_CASE("mass properties are written as far as the caller's struct goes") {
+  const EntityHandle ball = sphere({0, 0, 0}, 1);
+  crt_mass mass;
+  std::memset(&mass, 0x5a, sizeof mass);
+  const double untouched = mass.area.lower;
+  mass.struct_size = offsetof(crt_mass, area);
+  REQUIRE(crt_entity_mass(ball.get(), 1e-3, 0, &mass) == CRT_OK);
+  CHECK(mass.struct_size == offsetof(crt_mass, area));
+  CHECK(holds(mass.volume, 4.0 / 3 * pi));
+  CHECK(std::memcmp(&mass.area.lower, &untouched, sizeof untouched) == 0);
+  mass.struct_size = 0;
+  CHECK(crt_entity_mass(ball.get(), 1e-3, 0, &mass) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("struct_size"));
+}

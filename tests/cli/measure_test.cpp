@@ -1,0 +1,167 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <string>
+
+#include "cli/command.hpp"
+#include "cli/json.hpp"
+
+using namespace crt::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// This script has a plate with a hole, a ball, a disc and a half-space.
+const std::string parts_script = R"(Settings { unit -> "mm" }
+hole = Cylinder { from -> vec3(1, 1, -1) to -> vec3(1, 1, 2) radius -> 0.5 }
+Scene {
+  Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(4, 2, 1) } - hole
+  Sphere { center -> vec3(5, 0, 0) radius -> 1 }
+  Disc { center -> vec3(9, 0, 0) normal -> vec3(0, 1, 0) radius -> 1 }
+  Plane { normal -> vec3(0, 1, 0) position -> vec3(0, -3, 0) }
+}
+)";
+
+struct Fixture {
+  TemporaryFolder folder;
+  Fixture() {
+    folder.write("parts.crt", parts_script);
+    folder.write("ball.crt", "Scene { Sphere { center -> vec3(0, 0, 0) radius -> 1 } }\n");
+  }
+
+  Json measured(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "measure");
+    arguments.emplace_back("--json");
+    const Outcome run = run_crt(folder, arguments);
+    REQUIRE_MESSAGE(run.exit_code == 0, run.err);
+    return parse_json(run.out);
+  }
+};
+
+bool contains(const std::string& text, const std::string& piece) {
+  return text.find(piece) != std::string::npos;
+}
+
+bool holds(const Json& interval, double truth) {
+  return interval.items.at(0).number <= truth && truth <= interval.items.at(1).number;
+}
+
+double width(const Json& interval) {
+  return interval.items.at(1).number - interval.items.at(0).number;
+}
+
+}  // namespace
+
+TEST_CASE_FIXTURE(Fixture, "without a question all but the mass is said of each entity") {
+  const Json json = measured({"parts.crt"});
+  CHECK(json["unit"].string == "mm");
+  REQUIRE(json["entities"].items.size() == 4);
+  const Json& plate = json["entities"].items[0];
+  CHECK(plate["name"].string == "entity 0 (line 4)");
+  CHECK(holds(plate["volume"], 8 - pi / 4));
+  CHECK(width(plate["volume"]) <= 1e-4 * 8);
+  CHECK(holds(plate["area"], 28 - pi / 2 + pi));
+  CHECK(holds(plate["centroid"].items[0], (16 - pi / 4) / (8 - pi / 4)));
+  CHECK(plate["bounds"]["upper"].items[0].number == doctest::Approx(4).epsilon(1e-4));
+  CHECK(!plate.has("mass"));
+  CHECK(!plate.has("inertia"));
+  CHECK(holds(json["sum"]["volume"], 8 - pi / 4 + 4 * pi / 3));
+}
+
+TEST_CASE_FIXTURE(Fixture, "what has no volume is named with why, and its box is given") {
+  const Json json = measured({"parts.crt"});
+  const Json& disc = json["entities"].items[2];
+  CHECK(contains(disc["fault"].string, "only a solid can be measured"));
+  CHECK(!disc.has("volume"));
+  CHECK(disc["bounds"]["upper"].items[0].number == doctest::Approx(10));
+  const Json& half = json["entities"].items[3];
+  CHECK(contains(half["fault"].string, "infinite"));
+  CHECK(half["bounds"]["lower"].items[1].kind == Json::Kind::null);
+  const Outcome run = run_crt(folder, {"measure", "parts.crt"});
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.out, "entity 2 (line 6)\n"));
+  CHECK(contains(run.out, "only a solid can be measured"));
+  CHECK(contains(run.out, "sum of 2 of 4 entities"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "the guide shows what is printed of its example") {
+  const fs::path source = CRT_SOURCE_DIR;
+  fs::copy_file(source / "examples/measure/plate.crt", folder.path() / "plate.crt");
+  std::ifstream file(source / "docs/measure.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  const Outcome run = run_crt(folder, {"measure", "plate.crt"});
+  CHECK(run.exit_code == 0);
+  CHECK_MESSAGE(
+      contains(page, "<!-- printed by crt measure plate.crt -->\n```\n" + run.out + "```\n"),
+      run.out);
+}
+
+TEST_CASE_FIXTURE(Fixture, "only what is asked for is said") {
+  const Json volume = measured({"ball.crt", "--volume", "--relative-width", "1e-9"});
+  const Json& ball = volume["entities"].items[0];
+  CHECK(holds(ball["volume"], 4 * pi / 3));
+  CHECK(width(ball["volume"]) <= 1e-9 * 4.2);
+  CHECK(!ball.has("area"));
+  CHECK(!ball.has("bounds"));
+  const Json area = measured({"ball.crt", "--area"});
+  CHECK(holds(area["entities"].items[0]["area"], 4 * pi));
+  CHECK(!area["entities"].items[0].has("volume"));
+  const Json bounds = measured({"parts.crt", "--bounds"});
+  CHECK(bounds["entities"].items[0].has("bounds"));
+  CHECK(!bounds["entities"].items[2].has("fault"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a density gives the mass, and the inertia with it") {
+  const Json json = measured({"ball.crt", "--density", "3"});
+  const Json& ball = json["entities"].items[0];
+  CHECK(json["density"].number == 3);
+  CHECK(holds(ball["mass"], 4 * pi));
+  CHECK(holds(ball["inertia"].items[0], 0.4 * 4 * pi));
+  CHECK(holds(ball["inertia"].items[3], 0));
+  CHECK(holds(json["sum"]["mass"], 4 * pi));
+}
+
+TEST_CASE_FIXTURE(Fixture, "numbers have the digits that are sure, and the unit") {
+  const Outcome rough = run_crt(folder, {"measure", "ball.crt", "--volume"});
+  CHECK(contains(rough.out, "  volume    4.18"));
+  CHECK(contains(rough.out, " m3, between 4.18"));
+  const Outcome fine = run_crt(
+      folder, {"measure", "ball.crt", "--volume", "--relative-width", "1e-8", "--unit", "in"});
+  CHECK(contains(fine.out, "  volume    4.1887902"));
+  CHECK(contains(fine.out, " in3, between 4.18879"));
+  CHECK(!contains(fine.out, "sum"));
+}
+
+TEST_CASE_FIXTURE(Fixture,
+                  "a script from standard input is measured, and what it prints is beside") {
+  const Outcome run = run_crt_in(
+      {.input = "print(7)\nScene { Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, 1) } }\n"},
+      folder, {"measure", "-", "--volume"});
+  CHECK_MESSAGE(run.exit_code == 0, run.err);
+  CHECK(contains(run.out, "entity 0 (line 2)"));
+  CHECK(contains(run.err, "7\n"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a wrong option or script of measure ends with its code") {
+  CHECK(run_crt(folder, {"measure", "ball.crt", "--relative-width", "0"}).exit_code == 2);
+  CHECK(run_crt(folder, {"measure", "ball.crt", "--relative-width", "2"}).exit_code == 2);
+  CHECK(run_crt(folder, {"measure", "ball.crt", "--density", "-1"}).exit_code == 2);
+  CHECK(run_crt(folder, {"measure", "ball.crt", "--seconds", "0"}).exit_code == 2);
+  CHECK(run_crt(folder, {"measure", "none.crt"}).exit_code == 3);
+  folder.write("wrong.crt", "Scene { Ball { } }\n");
+  const Outcome run = run_crt(folder, {"measure", "wrong.crt"});
+  CHECK(run.exit_code == 1);
+  CHECK(run.out.empty());
+}
+
+TEST_CASE_FIXTURE(Fixture, "time that is over leaves wider bounds that hold the truth") {
+  const Json json = measured({"ball.crt", "--relative-width", "1e-12", "--seconds", "1e-6"});
+  CHECK(holds(json["entities"].items[0]["volume"], 4 * pi / 3));
+}

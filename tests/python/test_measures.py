@@ -1,0 +1,115 @@
+"""These tests check how much entities are, where they are, and what is in them."""
+
+import math
+import unittest
+
+import numpy as np
+
+import crt
+
+PLATE = crt.Box((0, 0, 0), (4, 2, 1)) - crt.Cylinder((1, 1, -1), (1, 1, 2), 0.5)
+VOLUME = 8 - math.pi / 4
+
+
+class Intervals(unittest.TestCase):
+    def test_they_have_ends_a_middle_and_a_width(self):
+        number = crt.Interval(1, 4)
+        self.assertEqual((number.lower, number.upper, number.middle, number.width), (1, 4, 2.5, 3))
+        lower, upper = number
+        self.assertEqual((lower, upper), (1, 4))
+
+    def test_they_hold_what_is_between_their_ends(self):
+        number = crt.Interval(1, 4)
+        for inside in (1, 2.5, np.float64(4)):
+            self.assertIn(inside, number)
+        for outside in (0.999, 4.001, math.nan):
+            self.assertNotIn(outside, number)
+        with self.assertRaises(TypeError):
+            "a" in number
+
+
+class Measures(unittest.TestCase):
+    def test_the_volume_is_held_and_as_narrow_as_asked(self):
+        for width in (1e-2, 1e-6, 1e-9):
+            volume = PLATE.volume(width)
+            self.assertIsInstance(volume, crt.Interval)
+            self.assertIn(VOLUME, volume)
+            self.assertLessEqual(volume.width, width * 8)
+
+    def test_the_area_is_held(self):
+        area = PLATE.area(1e-4)
+        self.assertIn(28 - math.pi / 2 + math.pi, area)
+        self.assertLessEqual(area.width, 1e-4 * 30)
+
+    def test_mass_properties_are_those_of_a_ball(self):
+        mass = crt.Sphere((1, 2, 3), 2).mass(1e-4)
+        volume = 32 / 3 * math.pi
+        self.assertIn(volume, mass.volume)
+        self.assertIn(16 * math.pi, mass.area)
+        for place, number in zip((1, 2, 3), mass.centroid):
+            self.assertIn(place, number)
+        for number in mass.inertia[:3]:
+            self.assertIn(0.4 * volume * 4, number)
+        for number in mass.inertia[3:]:
+            self.assertIn(0, number)
+        np.testing.assert_allclose(mass.center, (1, 2, 3), atol=1e-3)
+        np.testing.assert_allclose(mass.inertia_tensor, 1.6 * volume * np.eye(3), atol=1e-1)
+
+    def test_time_ends_the_work_with_what_is_known(self):
+        self.assertIn(VOLUME, PLATE.volume(1e-12, seconds=1e-9))
+
+    def test_what_is_no_solid_or_has_no_end_is_refused(self):
+        with self.assertRaisesRegex(crt.Error, "solid"):
+            crt.Disc((0, 0, 0), (0, 1, 0), 1).volume()
+        with self.assertRaisesRegex(crt.Error, "infinite"):
+            crt.Plane((0, 1, 0)).mass()
+
+    def test_wrong_arguments_are_named(self):
+        with self.assertRaisesRegex(crt.Error, "relative_width"):
+            PLATE.volume(0)
+        with self.assertRaisesRegex(TypeError, "volume: relative_width"):
+            PLATE.volume("fine")
+        with self.assertRaisesRegex(crt.Error, "seconds"):
+            PLATE.area(seconds=-1)
+        with self.assertRaisesRegex(TypeError, "area: seconds"):
+            PLATE.area(seconds="long")
+
+
+class Contains(unittest.TestCase):
+    def test_points_are_inside_on_the_surface_or_outside(self):
+        points = [[(3, 1, 0.5), (4, 1, 0.5)], [(1, 1, 0.5), (5, 1, 0.5)]]
+        sides = PLATE.contains(points)
+        self.assertEqual(sides.dtype, np.int8)
+        np.testing.assert_array_equal(sides, [[1, 0], [-1, -1]])
+
+    def test_one_point_has_one_answer(self):
+        self.assertEqual(PLATE.contains((3, 1, 0.5)), 1)
+
+    def test_arrays_with_gaps_and_of_other_types_are_taken(self):
+        points = np.zeros((10, 6), np.float32)
+        points[:, 0:6:2] = (3, 1, 0.5)
+        points[4] = 50
+        sides = PLATE.contains(points[:, ::2])
+        np.testing.assert_array_equal(sides, np.where(np.arange(10) == 4, -1, 1))
+
+    def test_none_are_no_answers(self):
+        self.assertEqual(PLATE.contains(np.empty((0, 3))).shape, (0,))
+
+    def test_what_is_no_point_is_refused(self):
+        with self.assertRaisesRegex(crt.Error, r"points\[1\]"):
+            PLATE.contains([(0, 0, 0), (0, math.nan, 0)])
+        with self.assertRaisesRegex((TypeError, ValueError), "contains: points"):
+            PLATE.contains([(0, 0), (0, 1)])
+
+
+class Units(unittest.TestCase):
+    def test_a_script_says_what_a_scene_unit_is(self):
+        scene = crt.Scene.from_script('Settings { unit -> "mm" } Scene { }')
+        self.assertIs(scene.settings.unit, crt.Unit.MM)
+        self.assertIs(crt.Settings().unit, crt.Unit.M)
+        scene.settings.unit = "in"
+        self.assertIs(scene.settings.unit, crt.Unit.IN)
+
+
+if __name__ == "__main__":
+    unittest.main()
