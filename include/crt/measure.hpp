@@ -26,8 +26,11 @@ struct Interval {
   double lower = 0;
   double upper = 0;
 
+  /// Returns the number in the middle, rounded.
   double middle() const { return 0.5 * lower + 0.5 * upper; }
+  /// Returns how far the ends are apart, rounded.
   double width() const { return upper - lower; }
+  /// Returns whether a number is in the interval. Its ends are.
   bool contains(double x) const { return lower <= x && x <= upper; }
 
   friend bool operator==(const Interval&, const Interval&) = default;

@@ -1,6 +1,8 @@
 #include "core/intersect/bounding_proxy.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <iterator>
 
 #include "core/geometry/frustum/enclose.hpp"
 #include "core/geometry/sphere/enclose.hpp"
@@ -145,7 +147,11 @@ BoundingProxies::BoundingProxies(const CompiledScene& scene, std::span<const std
     }
   });
   std::erase(solids, nullptr);
-  solids.shrink_to_fit();
+  // shrink_to_fit() would pass over a lack of memory.
+  std::vector<std::unique_ptr<const PlacedSolid>> kept;
+  kept.reserve(solids.size());
+  std::ranges::move(solids, std::back_inserter(kept));
+  solids = std::move(kept);
 }
 
 }  // namespace crt::core

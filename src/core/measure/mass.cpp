@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <tuple>
 #include <utility>
 
 #include "core/math/float_environment.hpp"
@@ -123,6 +124,16 @@ class MassSearch {
     for (OpenCell& open : cells) open.score = share_of(open.mass.part, all);
   }
 
+  /// Returns whether a cell adds more to what is not known than another. No two are equal to it, so
+  /// that there is one order only.
+  static bool goes_first(const OpenCell& a, const OpenCell& b) {
+    const auto key = [](const OpenCell& open) {
+      const Vec3& corner = open.cell.box.lower;
+      return std::tuple(-open.score, open.object, corner.x, corner.y, corner.z);
+    };
+    return key(a) < key(b);
+  }
+
   /// Puts those first that are to be divided, and returns how many these are. What the others add
   /// is half of what is wanted.
   std::size_t count_to_divide(std::vector<OpenCell>& cells) const {
@@ -133,8 +144,7 @@ class MassSearch {
       sum += open.score;
     }
     if (is_finite && sum <= 1) return 0;
-    std::stable_sort(cells.begin(), cells.end(),
-                     [](const OpenCell& a, const OpenCell& b) { return a.score > b.score; });
+    std::sort(cells.begin(), cells.end(), goes_first);
     double rest = 0;
     std::size_t some = cells.size();
     while (some > 1 && rest + cells[some - 1].score <= 0.5) rest += cells[--some].score;
