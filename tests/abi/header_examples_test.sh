@@ -23,8 +23,8 @@ cp 1.txt program.c
 # The others go into a function whose parameters are what they take for granted. Their own functions
 # stand before it.
 given='crt_entity *entity, crt_entity *sphere, crt_entity *glass_sphere, crt_entity *plate,
-  crt_entity *hole_a, crt_entity *hole_b, crt_entity *part, crt_scene *scene, crt_prepared *prepared, crt_image *image,
-  size_t x, size_t y'
+  crt_entity *hole_a, crt_entity *hole_b, crt_entity *part, crt_scene *scene,
+  crt_prepared *prepared, crt_image *image, size_t x, size_t y'
 for ((piece = 2; piece <= pieces; ++piece)); do
   {
     printf '#include <crt/crt.h>\n#include <math.h>\n#include <stdio.h>\n'

@@ -25,13 +25,6 @@ void check(const Interval& answer, double truth, double relative_width = 1e-6) {
   CHECK(answer.width() <= 1.001 * relative_width * std::abs(truth) + rounding);
 }
 
-Solid in_room(const Solid& solid) {
-  Solid room;
-  room.a = Vec3(-4);
-  room.b = Vec3(4);
-  return {.kind = Solid::Kind::intersection, .a = {}, .b = {}, .size = 0, .parts = {solid, room}};
-}
-
 /// Returns how far two boxes are apart.
 double between(const Solid& a, const Solid& b) {
   Vec3 way(0, 0, 0);

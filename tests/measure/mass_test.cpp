@@ -173,14 +173,7 @@ TEST_CASE("trees of round and flat solids hold what chords along lines add up to
   for (std::uint32_t seed = 0; seed < 30; ++seed) {
     CAPTURE(seed);
     SolidMaker maker(seed);
-    Solid room;
-    room.a = Vec3(-reach);
-    room.b = Vec3(reach);
-    const Solid solid{.kind = Solid::Kind::intersection,
-                      .a = {},
-                      .b = {},
-                      .size = 0,
-                      .parts = {maker.tree(4), room}};
+    const Solid solid = in_room(maker.tree(4));
     double chords = 0;
     std::vector<Quad> places;
     for (int i = 0; i < lines; ++i) {
@@ -215,11 +208,8 @@ TEST_CASE("what a cutter takes and what it leaves are all that was there") {
   for (std::uint32_t seed = 100; seed < 120; ++seed) {
     CAPTURE(seed);
     SolidMaker maker(seed);
-    Solid room;
-    room.a = Vec3(-4);
-    room.b = Vec3(4);
-    const Entity a = maker.tree(2).entity() ^ room.entity();
-    const Entity b = maker.tree(2).entity() ^ room.entity();
+    const Entity a = in_room(maker.tree(2)).entity();
+    const Entity b = in_room(maker.tree(2)).entity();
     const MeasureOptions options{.relative_width = 1e-4};
     const Interval whole = volume(a, options);
     const Interval left = volume(a - b, options);

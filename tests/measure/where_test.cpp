@@ -115,14 +115,7 @@ TEST_CASE("no point of a solid is out of the box around it") {
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);
     SolidMaker maker(seed);
-    Solid room;
-    room.a = Vec3(-4);
-    room.b = Vec3(4);
-    const Solid solid{.kind = Solid::Kind::intersection,
-                      .a = {},
-                      .b = {},
-                      .size = 0,
-                      .parts = {maker.tree(4), room}};
+    const Solid solid = in_room(maker.tree(4));
     const BoundingBox box = tight_bounding_box(solid.entity(), {.relative_width = 1e-3});
     for (int i = 0; i < 2000; ++i) {
       const Vec3 point(maker.real(-4, 4), maker.real(-4, 4), maker.real(-4, 4));

@@ -138,6 +138,14 @@ struct Solid {
   }
 };
 
+/// Returns what of a solid is in a box, so that it is finite.
+inline Solid in_room(const Solid& solid) {
+  Solid room;
+  room.a = Vec3(-4);
+  room.b = Vec3(4);
+  return {.kind = Solid::Kind::intersection, .a = {}, .b = {}, .size = 0, .parts = {solid, room}};
+}
+
 /// A SolidMaker makes random solids whose numbers are small integers, so that most of their faces
 /// coincide.
 class SolidMaker {

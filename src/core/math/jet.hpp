@@ -90,10 +90,6 @@ JetOf<N> root(const JetOf<N>& a) {
 inline Interval positive_part(const Interval& a) {
   return {a.lo > 0 ? a.lo : 0, a.hi > 0 ? a.hi : 0};
 }
-/// Returns the larger or the smaller of two numbers.
-inline Interval larger(const Interval& a, const Interval& b) {
-  return {a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi};
-}
 template <class N>
 JetOf<N> positive_part(const JetOf<N>& a) {
   const auto [lo, hi] = range_of(a.value);

@@ -2,7 +2,6 @@
 // solid is known that is near enough to where any point may be. In a crossed cell the faces' planes
 // say how far it may reach, so the cells need not become small where a face is tangent to the side.
 #include <algorithm>
-#include <new>
 #include <queue>
 
 #include "core/math/float_environment.hpp"
@@ -96,8 +95,7 @@ class ExtentSearch {
 BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& options) {
   core::validate(options);
   if (!entity.is_solid()) return bounding_box(entity);
-  const core::FloatEnvironment ieee;
-  try {
+  return core::measured([&]() -> BoundingBox {
     const core::EntityCells cells(entity);
     const core::Bounds& rough = cells.bounds();
     if (rough.empty() || !rough.finite()) return {rough.lower, rough.upper};
@@ -115,9 +113,7 @@ BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& optio
       tight.lower[axis] = std::max(rough.lower[axis], -lower);
     }
     return {tight.lower, tight.upper};
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "there is not enough memory to measure the entity");
-  }
+  });
 }
 
 }  // namespace crt

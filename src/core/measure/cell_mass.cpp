@@ -5,7 +5,7 @@
 
 #include "core/geometry/face_functions.hpp"
 #include "core/measure/column.hpp"
-#include "core/measure/simplices.hpp"
+#include "core/measure/square_pieces.hpp"
 
 namespace crt::core {
 
@@ -131,17 +131,18 @@ class CutCell {
 
     double off = cut_rounding;
     for (const double end : {-1.0, 1.0}) {
-      off +=
-          doubtful(face.value + end * face.slope[axis], face.slope[a], face.slope[b], face.error);
+      off += area_in_doubt({face.value + end * face.slope[axis], {face.slope[a], face.slope[b], 0}},
+                           face.error);
     }
     for (std::size_t j = 0; j < look_.faces.size(); ++j) {
       if (j == number) continue;
       // The other face as it is on the plane of this one.
       const CellFace& other = look_.faces[j];
       const double ratio = other.slope[axis] / face.slope[axis];
-      off += doubtful(other.value - ratio * face.value, other.slope[a] - ratio * face.slope[a],
-                      other.slope[b] - ratio * face.slope[b],
-                      other.error + std::abs(ratio) * face.error);
+      off += area_in_doubt(
+          {other.value - ratio * face.value,
+           {other.slope[a] - ratio * face.slope[a], other.slope[b] - ratio * face.slope[b], 0}},
+          other.error + std::abs(ratio) * face.error);
     }
     const Interval square_seen = {std::max(0.0, seen - off), std::min(4.0, seen + off)};
     const Interval scale = side_of(box_, a) * side_of(box_, b) * Interval::of(0.25);
@@ -202,13 +203,6 @@ class CutCell {
            seen_area(above, own, face + 1, negative, axis);
   }
 
-  /// Returns how much of the square from -1 to 1 may be where a linear function is within an error.
-  static double doubtful(double value, double slope_a, double slope_b, double error) {
-    if (std::abs(value) - std::abs(slope_a) - std::abs(slope_b) > error) return 0;
-    const double steepest = std::max(std::abs(slope_a), std::abs(slope_b));
-    return error < steepest ? 4 * (error / steepest) * (1 + 0x1p-40) : 4;
-  }
-
   double most_area(const CellFace& face) const {
     const int crossings = solid_.functions(face.leaf).max_crossings(face.face);
     return crossings == 0 ? infinity : core::most_area(box_, crossings);
@@ -238,9 +232,8 @@ CellMass mass_of(const CellSolid& solid, const Bounds& box, const CellLook& look
   if (look.kind == CellLook::Kind::empty) return result;
   if (look.kind == CellLook::Kind::full) return {.part = whole(box, question)};
   if (look.kind == CellLook::Kind::unknown) {
-    const MassPart all = whole(box, question);
     MassPart& part = result.part;
-    part.volume = {0, all.volume.hi};
+    part.volume = {0, volume_of(box).hi};
     if (question.with_moments) {
       const CellFrame frame(box);
       const std::array<Interval, 3> middle = relative_middle(frame, question);

@@ -19,8 +19,7 @@ void CellTree::add(Cell&& cell, std::uint32_t object) {
 void CellTree::divide(std::uint32_t number) {
   if (nodes_[number].first_part != invalid_index) return;
   const auto first = static_cast<std::uint32_t>(nodes_.size());
-  const CellLook::Kind kind = nodes_[number].look.kind;
-  if (kind == CellLook::Kind::crossed || kind == CellLook::Kind::unknown) {
+  if (nodes_[number].look.is_open()) {
     const Cell whole = nodes_[number].cell;
     const std::vector<Bounds> boxes = halves_of(whole.box);
     if (boxes.size() > 1) {

@@ -165,6 +165,12 @@ class Column {
     PatchSeries difference;
     std::size_t first = 0;
     std::size_t second = 0;
+    NearlyLinear line{difference};
+
+    /// Returns how much of a part may be on either side of the line.
+    double area_in_doubt_of(const SquarePart& part) const {
+      return area_in_doubt(line.function, line.error) * part.size * part.size;
+    }
   };
   /// Cuts the square where walls are, and where levels cross.
   void cut_square() {
@@ -189,9 +195,8 @@ class Column {
     double volume = 0;
     double area = 0;
     std::erase_if(crossings, [&](const Crossing& crossing) {
-      const NearlyLinear line(crossing.difference);
-      const double doubt = area_in_doubt(line.function, line.error) * part.size * part.size;
-      volume += doubt * (2 * line.error);
+      const double doubt = crossing.area_in_doubt_of(part);
+      volume += doubt * (2 * crossing.line.error);
       area += doubt;
       return doubt == 0;
     });
@@ -228,9 +233,8 @@ class Column {
                  pieces);
     }
     for (const Crossing& crossing : crossings) {
-      const NearlyLinear line(crossing.difference);
-      cut_pieces(line.function, 0, pieces);
-      const double doubt = area_in_doubt(line.function, line.error) * part.size * part.size;
+      cut_pieces(crossing.line.function, 0, pieces);
+      const double doubt = crossing.area_in_doubt_of(part);
       areas_in_doubt_[crossing.first] += doubt;
       areas_in_doubt_[crossing.second] += doubt;
     }
@@ -244,15 +248,14 @@ class Column {
   void cut_walls(const SquarePart& part, const std::vector<Crossing>& crossings) {
     const Vec3 middle(part.s, part.t, 0);
     double most_error = 0;
-    for (const Crossing& crossing : crossings)
-      most_error += 2 * NearlyLinear(crossing.difference).error;
+    for (const Crossing& crossing : crossings) most_error += 2 * crossing.line.error;
     for (std::size_t i = 0; i < faces_.walls.size(); ++i) {
       std::vector<WallSegment> segments = line_in(part, faces_.walls[i].function, i);
       if (segments.empty()) continue;
       for (std::size_t j = 0; j < faces_.walls.size(); ++j)
         if (j != i) cut_segments(faces_.walls[j].function, 1U << faces_.walls[j].face, segments);
       for (const Crossing& crossing : crossings) {
-        const LinearFunction line = NearlyLinear(crossing.difference).function;
+        const LinearFunction& line = crossing.line.function;
         const Vec3 slope = line.slope * (1 / part.size);
         cut_segments({line.value - glm::dot(slope, middle), slope}, 0, segments);
       }

@@ -10,8 +10,17 @@ namespace {
 
 using SeriesJet = JetOf<PatchSeries>;
 
-/// A function that changes less along the column than this, relative to across, is a wall.
-constexpr double straight = 0x1p-44;
+/// Returns how much a face's function may change from the middle to an end along an axis, but for
+/// what it does across.
+double change_along(const CellFace& face, int axis) {
+  return std::abs(face.slope[axis]) + face.error;
+}
+
+/// Returns whether a face's function changes so little along an axis that it is a wall.
+bool is_wall(const CellFace& face, int axis) {
+  constexpr double straight = 0x1p-44;
+  return change_along(face, axis) <= straight * largest_component(face.slope);
+}
 
 /// A HeightSearch finds the height of a face.
 class HeightSearch {
@@ -44,8 +53,7 @@ class HeightSearch {
   bool find_middle() {
     const int c = frame_.c;
     middle_ = frame_.frame.middle[c];
-    std::array<Interval, 3> place;
-    for (int axis = 0; axis < 3; ++axis) place[at(axis)] = Interval::of(frame_.frame.middle[axis]);
+    std::array<Interval, 3> place = known_point(frame_.frame.middle);
     for (int step = 0; step < 4; ++step) {
       place[at(c)] = Interval::of(middle_);
       const Jet jet = solid_.value(face_, jets_of(place));
@@ -112,10 +120,10 @@ bool ColumnFaces::find(const CellSolid& solid, const CellLook& look, const Colum
                        double tolerance) {
   for (std::size_t i = 0; i < look.faces.size(); ++i) {
     const CellFace& face = look.faces[i];
-    const double along = std::abs(face.slope[frame.c]) + face.error;
-    const double across = std::max(std::abs(face.slope[frame.a]), std::abs(face.slope[frame.b]));
-    if (along <= straight * across) {
-      walls.push_back({i, {face.value, {face.slope[frame.a], face.slope[frame.b], 0}}, along});
+    if (is_wall(face, frame.c)) {
+      walls.push_back({i,
+                       {face.value, {face.slope[frame.a], face.slope[frame.b], 0}},
+                       change_along(face, frame.c)});
       continue;
     }
     if (face.slopes[at(frame.c)].contains(0) || !solid.functions(face.leaf).has_series())
@@ -147,11 +155,9 @@ int column_axis_of(const CellLook& look, const Vec3& half) {
     double least = infinity;
     bool has_height = false;
     for (const CellFace& face : look.faces) {
+      if (is_wall(face, axis)) continue;
       const double length = largest_component(face.slope / half);
       const double slope = std::abs(face.slope[axis]) / half[axis];
-      const bool is_wall =
-          slope * half[axis] + face.error <= straight * largest_component(face.slope);
-      if (is_wall) continue;
       has_height = true;
       if (face.slopes[at(axis)].contains(0)) least = 0;
       least = std::min(least, slope / length);

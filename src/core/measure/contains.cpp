@@ -1,7 +1,6 @@
 // A point is a cell of no size. What may be 0 there, as far as rounding lets one know, is a surface
 // that the point is on, if that makes a difference.
 #include <cmath>
-#include <new>
 
 #include "core/compile/compile.hpp"
 #include "core/math/float_environment.hpp"
@@ -48,14 +47,8 @@ void ask_rays(const Entity& entity, std::span<const Vec3> points, std::span<Poin
 
 void contains(const Entity& entity, std::span<const Vec3> points, std::span<PointSide> sides,
               int threads) {
-  if (sides.size() < points.size())
-    throw Error(ErrorCode::invalid_argument, "there are fewer places than points", "sides");
-  for (const Vec3& point : points) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-      throw Error(ErrorCode::invalid_argument, "a point must be finite", "points");
-  }
-  const core::FloatEnvironment ieee;
-  try {
+  core::check_points(points, sides.size(), "sides");
+  core::measured([&] {
     const core::EntityCells cells(entity);
     constexpr std::size_t points_of_task = 256;
     core::for_ranges(points.size(), points_of_task, threads,
@@ -64,9 +57,7 @@ void contains(const Entity& entity, std::span<const Vec3> points, std::span<Poin
                          sides[i] = core::side_of_point(cells, points[i]);
                      });
     if (!cells.has_all_functions()) core::ask_rays(entity, points, sides);
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "there is not enough memory to measure the entity");
-  }
+  });
 }
 
 PointSide contains(const Entity& entity, const Vec3& point) {

@@ -1,7 +1,6 @@
 // Distances: from points to the surface of a solid, and between two solids.
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <new>
 #include <optional>
 
 #include "core/math/float_environment.hpp"
@@ -58,7 +57,7 @@ class PointSearch {
       const CellSolid& solid = entity_.solids()[i];
       const CellLook look = solid.look(solid.cell({point, point}));
       if (look.kind == CellLook::Kind::full) inside = i;
-      if (look.kind == CellLook::Kind::crossed || look.kind == CellLook::Kind::unknown) {
+      if (look.is_open()) {
         const double off = distance_rounding * (size_ + largest_component(point));
         return {.distance = {-off, off}, .point = point};
       }
@@ -123,10 +122,8 @@ class PointSearch {
       nearest_ = reach.point;
     double least = 0;
     if (to_box > 0) least = std::max(to_box, -reach.most - glm::dot(direction, point_)) - off;
-    const bool is_open =
-        node.look.kind == CellLook::Kind::crossed || node.look.kind == CellLook::Kind::unknown;
     // Of a cell that is all wanted, the nearest point is known.
-    if (is_open) {
+    if (node.look.is_open()) {
       search_.add({number, std::max(0.0, least)});
     } else {
       const Vec3 place = point_ + way;
@@ -178,8 +175,8 @@ class PairSearch {
         break;
       }
       const bool divides_a =
-          is_open(a_.node(open.a)) &&
-          (!is_open(b_.node(open.b)) || size_of(a_, open.a) >= size_of(b_, open.b));
+          a_.node(open.a).look.is_open() &&
+          (!b_.node(open.b).look.is_open() || size_of(a_, open.a) >= size_of(b_, open.b));
       CellTree& tree = divides_a ? a_ : b_;
       const std::uint32_t number = divides_a ? open.a : open.b;
       tree.divide(number);
@@ -197,9 +194,6 @@ class PairSearch {
   }
 
  private:
-  static bool is_open(const CellTree::Node& node) {
-    return node.look.kind == CellLook::Kind::crossed || node.look.kind == CellLook::Kind::unknown;
-  }
   static double size_of(const CellTree& tree, std::uint32_t number) {
     const Bounds& box = tree.node(number).cell.box;
     return largest_component(box.upper - box.lower);
@@ -230,7 +224,7 @@ class PairSearch {
       if (apart == 0) look_for_overlap(of_a.point, b.object);
     }
     least -= off;
-    if (is_open(a) || is_open(b)) {
+    if (a.look.is_open() || b.look.is_open()) {
       search_.add({number_a, number_b, std::max(0.0, least)});
     } else {
       const Vec3 on_a = nearest_in(a.cell.box, b.cell.box);
@@ -302,14 +296,8 @@ class PairSearch {
 void nearest_points(const Entity& entity, std::span<const Vec3> points,
                     std::span<NearestPoint> nearest, const MeasureOptions& options) {
   core::validate(options);
-  if (nearest.size() < points.size())
-    throw Error(ErrorCode::invalid_argument, "there are fewer places than points", "nearest");
-  for (const Vec3& point : points) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-      throw Error(ErrorCode::invalid_argument, "a point must be finite", "points");
-  }
-  const core::FloatEnvironment ieee;
-  try {
+  core::check_points(points, nearest.size(), "nearest");
+  core::measured([&] {
     const core::EntityCells cells(entity);
     cells.check_bounded();
     if (!cells.has_points()) core::throw_no_points();
@@ -321,9 +309,7 @@ void nearest_points(const Entity& entity, std::span<const Vec3> points,
                        for (std::size_t i = begin; i < end; ++i)
                          nearest[i] = search.find(points[i]);
                      });
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "there is not enough memory to measure the entity");
-  }
+  });
 }
 
 NearestPoint nearest_point(const Entity& entity, const Vec3& point, const MeasureOptions& options) {
@@ -334,17 +320,14 @@ NearestPoint nearest_point(const Entity& entity, const Vec3& point, const Measur
 
 Clearance clearance(const Entity& a, const Entity& b, const MeasureOptions& options) {
   core::validate(options);
-  const core::FloatEnvironment ieee;
-  try {
+  return core::measured([&] {
     const core::EntityCells cells_a(a);
     const core::EntityCells cells_b(b);
     cells_a.check_bounded();
     cells_b.check_bounded();
     if (!cells_a.has_points() || !cells_b.has_points()) core::throw_no_points();
     return core::PairSearch(cells_a, cells_b, options).run();
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "there is not enough memory to measure the entities");
-  }
+  });
 }
 
 std::vector<Overlap> interference(std::span<const Entity> entities, const MeasureOptions& options) {

@@ -27,6 +27,15 @@ bool EntityCells::has_all_functions() const {
   return std::ranges::all_of(solids_, &CellSolid::has_all_functions);
 }
 
+void check_points(std::span<const Vec3> points, std::size_t places, const char* name_of_places) {
+  if (places < points.size())
+    throw Error(ErrorCode::invalid_argument, "there are fewer places than points", name_of_places);
+  for (const Vec3& point : points) {
+    if (!Bounds{point, point}.finite())
+      throw Error(ErrorCode::invalid_argument, "a point must be finite", "points");
+  }
+}
+
 Bounds first_box(const Bounds& bounds) {
   const CellFrame frame(bounds);
   const Vec3 below = Vec3(0.0171, 0.0193, 0.0127) * frame.half;

@@ -2,7 +2,6 @@
 // those are divided that add most to it. So the rounds, and the sums, do not depend on the threads.
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <tuple>
 #include <utility>
 
@@ -218,19 +217,16 @@ class MassSearch {
   MassPart done_;
 };
 
-MassPart measured(const Entity& entity, const Wanted& wanted, const MeasureOptions& options,
-                  Vec3& reference) {
+MassPart mass_of_entity(const Entity& entity, const Wanted& wanted, const MeasureOptions& options,
+                        Vec3& reference) {
   validate(options);
-  const FloatEnvironment ieee;
-  try {
+  return measured([&] {
     const EntityCells cells(entity);
     cells.check_bounded();
     MassSearch search(cells, wanted, options);
     reference = search.question().reference;
     return search.run();
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "there is not enough memory to measure the entity");
-  }
+  });
 }
 
 crt::Interval answer(const Interval& number) {
@@ -243,22 +239,24 @@ crt::Interval answer(const Interval& number) {
 
 Interval volume(const Entity& entity, const MeasureOptions& options) {
   Vec3 reference;
-  return core::answer(
-      core::measured(entity, {.volume = true, .area = false, .moments = false}, options, reference)
-          .volume);
+  return core::answer(core::mass_of_entity(entity,
+                                           {.volume = true, .area = false, .moments = false},
+                                           options, reference)
+                          .volume);
 }
 
 Interval surface_area(const Entity& entity, const MeasureOptions& options) {
   Vec3 reference;
-  return core::answer(
-      core::measured(entity, {.volume = false, .area = true, .moments = false}, options, reference)
-          .area);
+  return core::answer(core::mass_of_entity(entity,
+                                           {.volume = false, .area = true, .moments = false},
+                                           options, reference)
+                          .area);
 }
 
 MassProperties mass_properties(const Entity& entity, const MeasureOptions& options) {
   using core::answer;
   Vec3 reference{0, 0, 0};
-  const core::MassPart part = core::measured(entity, {}, options, reference);
+  const core::MassPart part = core::mass_of_entity(entity, {}, options, reference);
   MassProperties result{.volume = answer(part.volume), .area = answer(part.area)};
   std::array<core::Interval, 3> center;
   for (std::size_t i = 0; i < 3; ++i) {

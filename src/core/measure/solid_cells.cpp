@@ -173,9 +173,7 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
   }
   work.is_any = work.near.kind == NearFaces::Kind::where_any_negative;
   const std::array<Jet, 3> jets = leaf.placement->to_object(jets_of(place));
-  const auto& [x, y, z] = std::array{frame.middle.x, frame.middle.y, frame.middle.z};
-  const std::array<Interval, 3> middle = leaf.placement->to_object(
-      std::array<Interval, 3>{Interval::of(x), Interval::of(y), Interval::of(z)});
+  const std::array<Interval, 3> middle = leaf.placement->to_object(known_point(frame.middle));
   for (const std::uint32_t face : work.near.faces) {
     const Jet jet = leaf.functions->value(face, jets);
     const Interval at_middle = leaf.functions->value(face, middle);

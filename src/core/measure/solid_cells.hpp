@@ -63,6 +63,8 @@ struct CellLook {
   /// No line crosses faces in the cell more often.
   double max_crossings = 0;
 
+  /// Returns whether parts of the cell may differ.
+  bool is_open() const { return kind == Kind::crossed || kind == Kind::unknown; }
   bool is_inside(std::uint32_t negative) const { return ((inside >> negative) & 1U) != 0; }
 };
 
