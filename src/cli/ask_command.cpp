@@ -164,6 +164,7 @@ class Asking {
     std::size_t before = 0;
     for_batches<6>(ray_columns, [&](const auto& lines) {
       std::vector<Ray> rays;
+      rays.reserve(lines.size());
       for (const auto& line : lines) rays.push_back(ray_of(line));
       std::vector<std::vector<FullHit>> hits(rays.size());
       const auto ask = [&](RayQueries& queries, std::size_t first, std::size_t last) {
@@ -192,6 +193,7 @@ class Asking {
     print("inside,entity,part\n");
     for_batches<3>(point_columns, [&](const auto& lines) {
       std::vector<Vec3> points;
+      points.reserve(lines.size());
       for (const auto& [numbers, number] : lines)
         points.emplace_back(numbers[0], numbers[1], numbers[2]);
       std::vector<Location> places(points.size());

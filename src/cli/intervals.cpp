@@ -75,7 +75,7 @@ std::string end_text(double end, double width, bool up) {
   const int digits = std::clamp(place_of(end) - place + 1, 1, most_digits);
   const double unit = number_of(fmt::format("1e{}", place_of(end) - digits + 1));
   for (const double candidate : {end, up ? end + unit : end - unit}) {
-    const std::string text = fmt::format("{:.{}g}", candidate, digits);
+    std::string text = fmt::format("{:.{}g}", candidate, digits);
     const double written = number_of(text);
     if (up ? written >= end : written <= end) return text;
   }

@@ -21,7 +21,7 @@ constexpr double default_width = 1e-6;
 /// Narrower than that a single step of the search may take long.
 constexpr double least_width = 1e-9;
 
-const Entity& entity(const Arguments& arguments) {
+const Entity& given_entity(const Arguments& arguments) {
   const auto* given = std::get_if<Entity>(&arguments[0]);
   if (!given) arguments.wrong_type(0, "an entity");
   return *given;
@@ -47,7 +47,7 @@ template <class Measure>
 auto measured(const Arguments& arguments, std::string_view name, const Measure& measure) {
   // Every part is compiled and looked at once.
   const std::uint64_t parts =
-      std::min(entity(arguments).primitive_count(), arguments.context.limits.entities);
+      std::min(given_entity(arguments).primitive_count(), arguments.context.limits.entities);
   arguments.context.spend(arguments.call, static_cast<std::size_t>(steps_per_look * parts));
   try {
     return measure();
@@ -62,7 +62,7 @@ auto measured(const Arguments& arguments, std::string_view name, const Measure& 
 Value volume_of(const Arguments& arguments) {
   const MeasureOptions options = options_of(arguments);
   const Interval found =
-      measured(arguments, "volume", [&] { return volume(entity(arguments), options); });
+      measured(arguments, "volume", [&] { return volume(given_entity(arguments), options); });
   // A little more is what rounding leaves open.
   if (found.width() > 2 * options.relative_width * found.upper) {
     fail(arguments.span(0),
@@ -76,8 +76,8 @@ Value volume_of(const Arguments& arguments) {
 /// Computes bounds(e): [lower, upper].
 Value bounds_of(const Arguments& arguments) {
   const MeasureOptions options = options_of(arguments);
-  const BoundingBox box =
-      measured(arguments, "bounds", [&] { return tight_bounding_box(entity(arguments), options); });
+  const BoundingBox box = measured(
+      arguments, "bounds", [&] { return tight_bounding_box(given_entity(arguments), options); });
   for (const Vec3& corner : {box.lower, box.upper}) {
     if (std::isfinite(corner.x) && std::isfinite(corner.y) && std::isfinite(corner.z)) continue;
     fail(arguments.span(0), "bounds: there is no box around it: it is {}",
@@ -91,7 +91,7 @@ Value contains_point(const Arguments& arguments) {
   const Vec3 point = arguments.vector(1);
   return measured(arguments, "contains", [&] {
     PointSide side = PointSide::outside;
-    contains(entity(arguments), std::span(&point, 1), std::span(&side, 1), 1);
+    contains(given_entity(arguments), std::span(&point, 1), std::span(&side, 1), 1);
     return side != PointSide::outside;
   });
 }

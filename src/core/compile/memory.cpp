@@ -31,7 +31,7 @@ std::uint64_t primitive_bytes(const CompiledScene& scene) {
 }
 
 std::uint64_t csg_bytes(const CompiledScene& scene) {
-  std::uint64_t bytes = bytes_of(scene.programs);
+  std::uint64_t bytes = scene.programs.capacity() * sizeof(void*);
   for (const auto& store : scene.stores) {
     bytes += bytes_of(store->programs);
     for (const CsgProgram& program : store->programs) {

@@ -213,6 +213,7 @@ class Column {
     for (const double s : {-0.5, 0.5}) {
       for (const double t : {-0.5, 0.5}) {
         std::vector<Crossing> inner;
+        inner.reserve(crossings.size());
         for (const Crossing& crossing : crossings)
           inner.push_back(
               {part_of(crossing.difference, s, t, 0.5), crossing.first, crossing.second});

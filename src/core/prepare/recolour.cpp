@@ -1,7 +1,9 @@
 #include "core/prepare/recolour.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -19,8 +21,8 @@ bool are_same_maps(const TransformChain* a, const TransformChain* b) {
   if (a == nullptr || b == nullptr || !a->is_plain() || !b->is_plain()) return false;
   const Transform one = a->product.rounded();
   const Transform other = b->product.rounded();
-  static_assert(sizeof(Transform) == 12 * sizeof(double));
-  return std::memcmp(&one, &other, sizeof one) == 0;  // 0 and -0 differ
+  using Bits = std::array<std::uint64_t, 12>;  // 0 and -0 differ
+  return std::bit_cast<Bits>(one) == std::bit_cast<Bits>(other);
 }
 
 bool are_same_shapes(const EntityNode& a, const EntityNode& b) {

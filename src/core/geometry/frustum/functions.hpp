@@ -21,9 +21,9 @@ struct FrustumFunctions {
   Interval sine;
   bool has_apex = false;
 
-  /// `narrow` is one of the two ends.
-  FrustumFunctions(const Vec3& from, const Vec3& to, const Vec3& narrow, double narrow_radius,
-                   double wide_radius);
+  /// `narrow_end` is one of the two ends.
+  FrustumFunctions(const Vec3& from_end, const Vec3& to_end, const Vec3& narrow_end,
+                   double narrow_size, double wide_size);
 
   static constexpr int max_crossings(std::uint32_t face) { return face == side ? 2 : 1; }
   void look(const PointOf<Interval>& box, NearFaces& near) const;

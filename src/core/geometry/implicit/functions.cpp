@@ -63,9 +63,10 @@ Jet ImplicitFunctions::value(std::uint32_t face, const PointOf<Jet>& point) cons
       values_in(*program, {point[0].value, point[1].value, point[2].value});
   const Interval any = Interval::everything();
   if (values.may_be_undefined) return {any, {any, any, any}};
-  const auto& [along_x, along_y, along_z] = values.value.slope.each;
+  const auto& along = values.value.slope.each;
   const auto slope = [&](std::size_t i) {
-    return along_x * point[0].slope[i] + along_y * point[1].slope[i] + along_z * point[2].slope[i];
+    return along[0] * point[0].slope[i] + along[1] * point[1].slope[i] +
+           along[2] * point[2].slope[i];
   };
   return {values.value.all, {slope(0), slope(1), slope(2)}};
 }

@@ -55,7 +55,7 @@ class RegionLook {
   const PointOf<Interval>& rectangle() const { return cut_box_.box(); }
   void find_walls();
   /// These add a wall that is near. What is not plain makes the whole look fail.
-  void add(std::uint32_t piece);
+  void add(std::uint32_t number);
   void add_flat(std::uint32_t number);
   void add_arc(std::uint32_t number);
   /// Returns the sign of the squared distance from an arc's circle, as sign_of().
