@@ -297,7 +297,8 @@ TEST_CASE("a scene of thousands is prepared from an earlier one while its parts 
   int kept = 0;
   for (int turn = 1; turn <= 20; ++turn) {
     CAPTURE(turn);
-    for (std::size_t i = turn % 7; i < numbers.size(); i += 23 + turn)
+    const auto step = static_cast<std::size_t>(turn);
+    for (std::size_t i = step % 7; i < numbers.size(); i += 23 + step)
       scene.entities[i] = part(numbers[i], turn % 4 == 0 ? 0 : 0.1 * turn);
     if (turn % 6 == 5) {
       scene.entities.erase(scene.entities.begin() + turn);
