@@ -1,0 +1,316 @@
+#include "core/section/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "core/base/invalid_index.hpp"
+#include "core/math/jet.hpp"
+#include "core/section/arc_series.hpp"
+#include "core/section/cell_links.hpp"
+#include "core/section/doubtful_cells.hpp"
+#include "core/tasks/parallel.hpp"
+
+namespace crt::core {
+
+namespace {
+
+constexpr std::size_t cells_of_task = 16;
+
+class OutlineSearch {
+ public:
+  OutlineSearch(const CellSolid& solid, const SectionPlane& plane, const OutlineQuestion& question,
+                MeasureClock& clock, const Workers& workers, int attempt)
+      : grid_(plane, solid.bounds(), attempt),
+        looks_(solid, grid_, plane.across, question.size),
+        edges_(looks_),
+        question_(question),
+        clock_(clock),
+        workers_(workers) {}
+
+  /// Returns false if a line is not closed, as it may be if a face lies along a side of a cell.
+  bool run() {
+    OutlineCell root = looks_.root();
+    const OutlineLooks::Found found = look_at(root);
+    if (found == OutlineLooks::Found::in_plane) {
+      outline_.lies_in_plane = true;
+      return true;
+    }
+    if (found == OutlineLooks::Found::nothing) return true;
+    std::vector<OutlineCell> open;
+    sort_in(std::move(root), open);
+    for (;;) {
+      divide(std::move(open));
+      if (outline_.lies_in_plane) return true;
+      open = link();
+      outline_.looks += edges_.take_looks();
+      if (open.empty()) break;
+    }
+    const bool is_closed = trace();
+    find_deviation();
+    return is_closed;
+  }
+  Outline take() { return std::move(outline_); }
+
+ private:
+  static constexpr std::size_t most_cells = std::size_t{1} << 17;
+  /// So few may be divided until they are as small as rounding.
+  static constexpr std::size_t few_cells = 512;
+  static constexpr double least_size = 0x1p-36;
+
+  OutlineLooks::Found look_at(OutlineCell& cell) {
+    outline_.looks += cell.program->leaves.size();
+    return looks_.look_at(cell);
+  }
+
+  void sort_in(OutlineCell&& cell, std::vector<OutlineCell>& open) {
+    (cell.is_simple ? simple_ : open).push_back(std::move(cell));
+  }
+
+  /// Returns whether a cell is to be divided further, of `count` that might be.
+  bool may_divide(const OutlineCell& cell, std::size_t count) {
+    const double size = looks_.size(cell);
+    if (simple_.size() + left_.size() + count > most_cells) return false;
+    if (size > 0.25 * question_.deviation) return true;
+    return count <= few_cells && size > least_size * grid_.size();
+  }
+
+  /// Divides cells until they are simple, or left.
+  void divide(std::vector<OutlineCell>&& open) {
+    while (!open.empty()) {
+      const bool is_over = clock_.is_over();
+      std::vector<OutlineCell> cells;
+      for (OutlineCell& cell : open)
+        (!is_over && may_divide(cell, open.size()) ? cells : left_).push_back(std::move(cell));
+      std::vector<std::vector<OutlineCell>> parts(cells.size());
+      std::vector<std::uint64_t> looks(cells.size());
+      std::vector<unsigned char> in_plane(cells.size());
+      for_ranges(cells.size(), cells_of_task, workers_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          for (OutlineCell& part : looks_.parts_of(cells[i])) {
+            looks[i] += part.program->leaves.size();
+            const OutlineLooks::Found found = looks_.look_at(part);
+            if (found == OutlineLooks::Found::in_plane) in_plane[i] = 1;
+            if (found == OutlineLooks::Found::crossed) parts[i].push_back(std::move(part));
+          }
+        }
+      });
+      for (const std::uint64_t count : looks) outline_.looks += count;
+      if (std::ranges::count(in_plane, 1) > 0) {
+        outline_.lies_in_plane = true;
+        return;
+      }
+      open.clear();
+      for (std::vector<OutlineCell>& of_cell : parts)
+        for (OutlineCell& part : of_cell) sort_in(std::move(part), open);
+    }
+  }
+
+  /// Links what crosses the borders of all cells. Returns simple cells where that failed, which are
+  /// to be divided.
+  std::vector<OutlineCell> link() {
+    std::vector<OutlineCell> cells = simple_;
+    cells.insert(cells.end(), left_.begin(), left_.end());
+    edges_.find(cells, workers_);
+    std::vector<std::vector<CellLink>> links(cells.size());
+    std::vector<unsigned char> failed(cells.size());
+    for_ranges(cells.size(), cells_of_task, workers_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::vector<BorderCrossing> border = edges_.around(cells[i]);
+        std::optional<std::vector<CellLink>> found;
+        if (cells[i].is_simple) found = links_of(looks_, cells[i], border);
+        failed[i] = cells[i].is_simple && !found ? 1 : 0;
+        links[i] = found ? std::move(*found) : straight_links(border);
+      }
+    });
+    std::vector<OutlineCell> again;
+    const auto count = static_cast<std::size_t>(std::ranges::count(failed, 1));
+    const bool is_over = clock_.is_over();
+    if (count > 0) {
+      std::vector<OutlineCell> kept;
+      kept.reserve(simple_.size());
+      for (std::size_t i = 0; i < simple_.size(); ++i) {
+        if (failed[i] == 0) {
+          kept.push_back(std::move(simple_[i]));
+        } else if (!is_over && may_divide(simple_[i], count) &&
+                   !looks_.parts_of(simple_[i]).empty()) {
+          again.push_back(std::move(simple_[i]));
+        } else {
+          simple_[i].is_simple = false;
+          left_.push_back(std::move(simple_[i]));
+        }
+      }
+      simple_ = std::move(kept);
+    }
+    if (!again.empty()) return again;
+    cells_ = std::move(cells);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (failed[i] != 0) cells_[i].is_simple = false;
+    links_ = std::move(links);
+    return again;
+  }
+
+  struct LinkPlace {
+    std::uint32_t cell = invalid_index;
+    std::uint32_t link = 0;
+  };
+
+  /// Follows the links around.
+  bool trace() {
+    std::vector<LinkPlace> from(edges_.crossing_count());
+    for (std::uint32_t i = 0; i < links_.size(); ++i) {
+      for (std::uint32_t j = 0; j < links_[i].size(); ++j) from[links_[i][j].from] = {i, j};
+    }
+    bool is_closed = true;
+    std::vector<unsigned char> done(from.size());
+    std::vector<std::vector<OutlinePiece>> loops;
+    // A line that is not closed begins where no other link ends.
+    std::vector<unsigned char> is_end(from.size());
+    for (const std::vector<CellLink>& links : links_)
+      for (const CellLink& link : links) is_end[link.to] = 1;
+    std::vector<std::uint32_t> starts;
+    for (std::uint32_t i = 0; i < from.size(); ++i)
+      if (from[i].cell != invalid_index && is_end[i] == 0) starts.push_back(i);
+    for (std::uint32_t i = 0; i < from.size(); ++i)
+      if (from[i].cell != invalid_index && is_end[i] != 0) starts.push_back(i);
+    for (const std::uint32_t start : starts) {
+      std::vector<OutlinePiece> pieces;
+      std::uint32_t crossing = start;
+      while (from[crossing].cell != invalid_index && done[crossing] == 0) {
+        done[crossing] = 1;
+        const LinkPlace place = from[crossing];
+        const CellLink& link = links_[place.cell][place.link];
+        const bool has_corner = link.first_face != link.last_face;
+        pieces.push_back({.from = link.begin,
+                          .to = has_corner ? link.corner : link.end,
+                          .cell = place.cell,
+                          .face = link.first_face});
+        if (has_corner) {
+          pieces.push_back({.from = link.corner,
+                            .to = link.end,
+                            .cell = place.cell,
+                            .face = link.last_face});
+        }
+        crossing = link.to;
+      }
+      if (pieces.empty()) continue;
+      if (crossing != start) is_closed = false;
+      loops.push_back(std::move(pieces));
+    }
+    prove(loops);
+    return is_closed;
+  }
+
+  /// Returns the deviation that is wanted of chords, also for the sake of the area.
+  double wanted_deviation(const std::vector<std::vector<OutlinePiece>>& loops) const {
+    double area = 0;
+    double length = 0;
+    for (const std::vector<OutlinePiece>& pieces : loops) {
+      for (const OutlinePiece& piece : pieces) {
+        const PlanePoint& begin = pieces.front().from;
+        area += 0.5 * ((piece.from.x - begin.x) * (piece.to.y - begin.y) -
+                       (piece.from.y - begin.y) * (piece.to.x - begin.x));
+        length += std::abs(piece.to.x - piece.from.x) + std::abs(piece.to.y - piece.from.y);
+      }
+    }
+    const double for_area =
+        length > 0 ? 0.5 * question_.relative_width * std::abs(area) / length : infinity;
+    return std::max(std::min(0.25 * question_.deviation, for_area), 0x1p-42 * question_.size);
+  }
+
+  void prove(const std::vector<std::vector<OutlinePiece>>& loops) {
+    std::vector<const OutlinePiece*> pieces;
+    for (const std::vector<OutlinePiece>& loop : loops)
+      for (const OutlinePiece& piece : loop) pieces.push_back(&piece);
+    std::vector<std::vector<OutlinePoint>> points(pieces.size());
+    const PieceProver prover(looks_, wanted_deviation(loops));
+    for_ranges(pieces.size(), cells_of_task, workers_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        prover.prove(cells_[pieces[i]->cell], *pieces[i], points[i]);
+    });
+    std::size_t next = 0;
+    for (const std::vector<OutlinePiece>& loop : loops) {
+      OutlineLoop line;
+      for (std::size_t i = 0; i < loop.size(); ++i, ++next) {
+        outline_.looks += points[next].size();
+        line.insert(line.end(), points[next].begin(), points[next].end());
+      }
+      add_loop(std::move(line));
+    }
+  }
+
+  /// Adds the area within a line, and what its chords may be off.
+  void add_loop(OutlineLoop&& line) {
+    const PlanePoint begin = line.front().place;
+    const auto from_begin = [&](const PlanePoint& p) {
+      return std::pair(Interval::of(p.x) - Interval::of(begin.x),
+                       Interval::of(p.y) - Interval::of(begin.y));
+    };
+    Interval area{0, 0};
+    double off = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const auto [x, y] = from_begin(line[i].place);
+      const auto [next_x, next_y] = from_begin(line[(i + 1) % line.size()].place);
+      area = area + (x * next_y - y * next_x) * Interval::of(0.5);
+      const Interval chord = root(square(next_x - x) + square(next_y - y));
+      area = area + segment_area(chord, line[i].bulge);
+      const double length = chord.hi + grid_.rounding();
+      if (line[i].surface != no_surface) off += length * line[i].deviation;
+      outline_.deviation = std::max(outline_.deviation, line[i].deviation);
+    }
+    off *= 1 + 0x1p-30;
+    outline_.area = outline_.area + area + Interval{-off, off};
+    outline_.loops.push_back(std::move(line));
+  }
+
+  /// Finds how far from the outline what may be in cells that were left can be.
+  void find_deviation() {
+    std::vector<OutlineCell> doubtful;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (cells_[i].is_simple) continue;
+      const std::array<double, 2> size = grid_.size(cells_[i].lower, cells_[i].upper);
+      const double area = size[0] * size[1] * (1 + 0x1p-40);
+      outline_.area = outline_.area + Interval{-area, area};
+      if (looks_.size(cells_[i]) > 0x1p-30 * grid_.size()) ++outline_.left_cells;
+      doubtful.push_back(std::move(cells_[i]));
+    }
+    outline_.deviation =
+        std::max(outline_.deviation, farthest_doubt(looks_, doubtful, outline_.loops));
+    outline_.area.lo = std::max(0.0, outline_.area.lo);
+    outline_.area.hi = std::max(0.0, outline_.area.hi);
+  }
+
+  OutlineGrid grid_;
+  OutlineLooks looks_;
+  OutlineEdges edges_;
+  const OutlineQuestion& question_;
+  MeasureClock& clock_;
+  Workers workers_;
+  std::vector<OutlineCell> simple_;
+  std::vector<OutlineCell> left_;
+  std::vector<OutlineCell> cells_;  ///< all of them, once they are linked
+  std::vector<std::vector<CellLink>> links_;
+  Outline outline_;
+};
+
+}  // namespace
+
+Outline outline_of(const CellSolid& solid, const SectionPlane& plane,
+                   const OutlineQuestion& question, MeasureClock& clock, const Workers& workers) {
+  std::uint64_t looks = 0;
+  Outline outline;
+  constexpr int most_attempts = 3;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    OutlineSearch search(solid, plane, question, clock, workers, attempt);
+    const bool is_closed = search.run();
+    outline = search.take();
+    looks += outline.looks;
+    outline.looks = looks;
+    if (is_closed) return outline;
+  }
+  outline.deviation = infinity;
+  return outline;
+}
+
+}  // namespace crt::core

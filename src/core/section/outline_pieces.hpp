@@ -1,0 +1,50 @@
+// A piece of the outline is an arc or a chord, with a proof of how far the true outline is from it.
+//
+// The arc goes through three points of a face's curve. Along it the face's function is a series
+// (patch_series.hpp), whose range says how much the function is, at most. How much it changes across
+// the chord follows from its slopes. So the curve, which like the arc is a graph over the chord, is
+// as near as the quotient says. A function without a series has chords, along which its slopes bound
+// it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/section/outline_cells.hpp"
+
+namespace crt::core {
+
+/// An OutlinePoint is where an arc or a chord begins.
+struct OutlinePoint {
+  PlanePoint place;
+  double bulge = 0;           ///< of the arc from here (crt/primitives.hpp), or 0 for a chord
+  std::uint64_t surface = 0;  ///< what it is near to, or no_surface
+  double deviation = 0;       ///< proved: of it from the outline, and the other way round
+};
+
+/// An OutlinePiece is the part of a face's curve between two points.
+struct OutlinePiece {
+  PlanePoint from;
+  PlanePoint to;
+  std::uint32_t cell = 0;
+  std::size_t face = OutlineCell::no_face;
+};
+
+class PieceProver {
+ public:
+  /// Arcs and chords are to be proved to a deviation.
+  PieceProver(const OutlineLooks& looks, double deviation) : looks_(looks), deviation_(deviation) {}
+
+  /// Appends arcs and chords from the beginning of a piece to its end.
+  void prove(const OutlineCell& cell, const OutlinePiece& piece,
+             std::vector<OutlinePoint>& points) const;
+
+ private:
+  struct Part;
+  class Curve;
+
+  const OutlineLooks& looks_;
+  double deviation_;
+};
+
+}  // namespace crt::core
