@@ -33,6 +33,7 @@
 #include <crt/ray.hpp>
 #include <crt/render.hpp>
 #include <crt/scene.hpp>
+#include <crt/section.hpp>
 #include <crt/settings.hpp>
 #include <crt/stats.hpp>
 #include <crt/svg_path.hpp>

@@ -67,7 +67,7 @@ struct Section {
 /// is not known otherwise. The frame says where it is in the end. A plane that is not across a
 /// coordinate axis is one of the solid turned, which is rounded to about 1e-15 of its coordinates.
 ///
-/// The search ends after 2^18 cells for each part of the solid that is apart from others. Throws
+/// The search ends after 2^16 cells for each part of the solid that is apart from others. Throws
 /// Error (invalid_argument) for a normal of no length, numbers that are not finite, a deviation
 /// that is not above 0, and for a solid that has no bounds or, as those of type Custom, no
 /// equations; else as the other measures do.

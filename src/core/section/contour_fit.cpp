@@ -6,6 +6,7 @@
 
 #include "core/section/circle_fit.hpp"
 #include "core/section/contour_arcs.hpp"
+#include "core/section/contour_joints.hpp"
 #include "core/section/outline_edges.hpp"
 #include "crt/elementary.hpp"
 
@@ -15,76 +16,6 @@ namespace {
 
 /// A corner that turns by more is kept.
 constexpr double plain_turn = 0.2;
-
-/// Returns how far a point is from the line through the ends of a piece.
-double distance_from_chord(const ContourPiece& piece, const PlanePoint& point) {
-  const double x = piece.to.x - piece.from.x;
-  const double y = piece.to.y - piece.from.y;
-  const double turn = x * (point.y - piece.from.y) - y * (point.x - piece.from.x);
-  return std::abs(turn) / distance_between(piece.from, piece.to);
-}
-
-/// A TangentJoint is where two lines or arcs touch, of which the one is to continue the other.
-class TangentJoint {
- public:
-  TangentJoint(const ContourPiece& before, const ContourPiece& after)
-      : before_(before), after_(after) {}
-
-  /// Returns the point, if there is one next to a piece between the two.
-  std::optional<PlanePoint> place(const ContourPiece& gap, double tolerance) const {
-    const double length = distance_between(gap.from, gap.to);
-    for (const PlanePoint& p : candidates()) {
-      const bool touch = off(before_, p) <= tolerance && off(after_, p) <= tolerance;
-      const bool is_between =
-          distance_between(p, gap.from) <= length && distance_between(p, gap.to) <= length;
-      if (touch && is_between) return p;
-    }
-    return {};
-  }
-  double bulge_to(const PlanePoint& place, const PlanePoint& from) const {
-    return bulge_of(before_, from, place);
-  }
-  double bulge_from(const PlanePoint& place, const PlanePoint& to) const {
-    return bulge_of(after_, place, to);
-  }
-
- private:
-  std::vector<PlanePoint> candidates() const {
-    if (!before_.is_arc() && !after_.is_arc()) return {};
-    if (before_.is_arc() && after_.is_arc()) {
-      const PlanePoint center = before_.center();
-      const PlanePoint other = after_.center();
-      const double share = before_.radius() / distance_between(center, other);
-      const double x = share * (other.x - center.x);
-      const double y = share * (other.y - center.y);
-      return {{center.x + x, center.y + y}, {center.x - x, center.y - y}};
-    }
-    const ContourPiece& line = before_.is_arc() ? after_ : before_;
-    const PlanePoint center = (before_.is_arc() ? before_ : after_).center();
-    const double x = line.to.x - line.from.x;
-    const double y = line.to.y - line.from.y;
-    const double share =
-        ((center.x - line.from.x) * x + (center.y - line.from.y) * y) / (x * x + y * y);
-    return {{line.from.x + share * x, line.from.y + share * y}};
-  }
-  /// Returns how far a point is from the whole line or circle of a piece.
-  static double off(const ContourPiece& piece, const PlanePoint& point) {
-    return piece.is_arc() ? std::abs(distance_between(point, piece.center()) - piece.radius())
-                          : distance_from_chord(piece, point);
-  }
-  /// Returns the bulge of a small part of a piece's circle.
-  static double bulge_of(const ContourPiece& piece, const PlanePoint& from,
-                         const PlanePoint& to) {
-    if (!piece.is_arc()) return 0;
-    const double half = 0.5 * distance_between(from, to);
-    const double radius = piece.radius();
-    const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
-    return std::copysign(half / (radius + height), piece.bulge);
-  }
-
-  ContourPiece before_;
-  ContourPiece after_;
-};
 
 class ContourFit {
  public:
@@ -98,13 +29,25 @@ class ContourFit {
     const bool has_corner = begin_at_corner();
     if (std::optional<FittedContour> circle = whole_circle(has_corner)) return finished(*circle);
     find_segments();
-    if (!has_corner && segments_.size() > 1) {
-      begin_at(segments_.front().last);
+    // The first segment may have begun in the midst of a line or an arc.
+    for (std::size_t i = 1; !has_corner && i < segments_.size(); ++i) {
+      if (!segments_[i].is_sure() && i + 1 < segments_.size()) continue;
+      begin_at(segments_[i].first);
       find_segments();
+      break;
     }
     if (add_joints()) find_segments();
-    FittedContour result;
-    merge_segments(result);
+    merge_segments();
+    // Where two touch, the point of both is known better than by either.
+    off_ += tidy_joints(pieces_, exact_, tolerance_ - off_ - off_of_pieces_);
+    FittedContour result{.contour = {}, .off = off_of_pieces_};
+    result.contour.reserve(pieces_.size());
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      // The bulge of a corner is that of the piece that ends there.
+      const FittedPiece& before = pieces_[(i + pieces_.size() - 1) % pieces_.size()];
+      const PlanePoint& place = pieces_[i].piece.from;
+      result.contour.push_back({.x = place.x, .y = place.y, .bulge = before.piece.bulge});
+    }
     return finished(result);
   }
 
@@ -243,53 +186,49 @@ class ContourFit {
     return {at(segment.first).place, at(segment.last).place, segment.arc.bulge};
   }
 
-  /// A piece between two segments that touch each other there is replaced by what these are up to
-  /// where they touch. Returns whether there was one.
+  /// Takes away what is between segments that touch each other there: these go on up to there.
+  /// Returns whether there was any.
   bool add_joints() {
-    std::vector<OutlinePoint> joints;
-    std::vector<std::size_t> places;
-    const std::size_t count = segments_.size();
-    for (std::size_t i = 1; i + 1 < count; ++i) {
+    bool is_any = false;
+    std::vector<OutlinePoint> points;
+    points.reserve(points_.size());
+    double most_off = 0;
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
       const Segment& gap = segments_[i];
-      const Segment& before = segments_[i - 1];
-      const Segment& after = segments_[i + 1];
-      if (gap.last != gap.first + 1 || !before.is_sure() || !after.is_sure()) continue;
-      const TangentJoint joint(piece_of_segment(before), piece_of_segment(after));
-      const std::optional<PlanePoint> place = joint.place(piece_of_segment(gap), exact_);
-      if (!place) continue;
-      const ContourPiece whole = piece_of_segment(gap);
-      const double first_bulge = joint.bulge_to(*place, whole.from);
-      const double last_bulge = joint.bulge_from(*place, whole.to);
-      const double off = distance_between(whole.from, whole.to) * std::abs(whole.bulge) +
-                         distance_between(whole.from, *place) * std::abs(first_bulge) +
-                         distance_between(*place, whole.to) * std::abs(last_bulge) +
-                         distance_from_chord(whole, *place);
-      if (!(off_ + off <= tolerance_)) continue;
-      joints.push_back({.place = *place,
-                        .bulge = last_bulge,
-                        .surface = at(after.first).surface});
-      places.push_back(gap.first);
-      points_[gap.first].bulge = first_bulge;
-      points_[gap.first].surface = at(before.first).surface;
-      joint_off_ = std::max(joint_off_, off);
-      ++i;  // what comes next begins there
+      std::optional<Joint> joint;
+      const Segment& after = segments_[(i + 1) % segments_.size()];
+      if (i > 0 && segments_.size() > 2 && segments_[i - 1].is_sure() && after.is_sure() &&
+          !is_corner(gap.first) && !is_corner(gap.last)) {
+        joint = joint_between(piece_of_segment(segments_[i - 1]), piece_of_segment(gap),
+                              piece_of_segment(after), exact_);
+      }
+      const double off = joint ? joint->off + gap.arc.off : 0;
+      if (joint && off_ + off <= tolerance_) {
+        points.push_back({.place = at(gap.first).place,
+                          .bulge = joint->first_bulge,
+                          .surface = at(segments_[i - 1].first).surface});
+        points.push_back({.place = joint->place,
+                          .bulge = joint->last_bulge,
+                          .surface = at(after.first).surface});
+        most_off = std::max(most_off, off);
+        is_any = true;
+      } else {
+        for (std::size_t k = gap.first; k < gap.last; ++k) points.push_back(at(k));
+      }
     }
-    for (std::size_t i = joints.size(); i-- > 0;) {
-      points_.insert(points_.begin() + static_cast<std::ptrdiff_t>(places[i] + 1), joints[i]);
-    }
-    off_ += joint_off_;
-    return !joints.empty();
+    points_ = std::move(points);
+    off_ += most_off;
+    return is_any;
   }
 
   /// Several segments become one line or arc where the tolerance allows it.
-  void merge_segments(FittedContour& result) {
-    std::vector<double> bulges;
-    double off = 0;
+  void merge_segments() {
+    pieces_.clear();
+    const FitTolerance wanted{.points = tolerance_ - off_, .between = tolerance_ - off_};
     for (std::size_t i = 0; i < segments_.size();) {
       const std::size_t corner = next_corner(segments_[i].first);
       std::size_t most = i;
       while (most + 1 < segments_.size() && segments_[most + 1].last <= corner) ++most;
-      const FitTolerance wanted{.points = tolerance_ - off_, .between = tolerance_ - off_};
       const auto fit_to = [&](std::size_t end) {
         return fit(segments_[i].first, segments_[end].last, wanted);
       };
@@ -301,25 +240,23 @@ class ContourFit {
       if (last - i < (are_sure ? 2U : 1U)) last = i;
       const FittedArc arc =
           last == i ? segments_[i].arc : fit_to(last).value_or(segments_[i].arc);
-      const PlanePoint& place = at(segments_[i].first).place;
-      result.contour.push_back({.x = place.x, .y = place.y, .bulge = 0});
-      bulges.push_back(arc.bulge);
-      off = std::max(off, arc.off);
+      pieces_.push_back({.piece = {at(segments_[i].first).place, at(segments_[last].last).place,
+                                   arc.bulge},
+                         .is_sure = last == i && segments_[i].is_sure(),
+                         .begins_at_corner = is_corner(segments_[i].first)});
+      off_of_pieces_ = std::max(off_of_pieces_, arc.off);
       i = last + 1;
     }
-    // The bulge of a corner is that of the piece that ends there.
-    for (std::size_t i = 0; i < bulges.size(); ++i)
-      result.contour[(i + 1) % bulges.size()].bulge = bulges[i];
-    result.off = off;
   }
 
   double tolerance_;
   double exact_;
   double smallest_;
   double off_ = 0;
-  double joint_off_ = 0;
+  double off_of_pieces_ = 0;
   std::vector<OutlinePoint> points_;
   std::vector<Segment> segments_;
+  std::vector<FittedPiece> pieces_;
 };
 
 }  // namespace

@@ -54,10 +54,11 @@ class OutlineSearch {
   Outline take() { return std::move(outline_); }
 
  private:
-  static constexpr std::size_t most_cells = std::size_t{1} << 17;
+  static constexpr std::size_t most_cells = std::size_t{1} << 16;
   /// So few may be divided until they are as small as rounding.
   static constexpr std::size_t few_cells = 512;
-  static constexpr double least_size = 0x1p-36;
+  static constexpr std::size_t most_chords = std::size_t{1} << 18;
+  static constexpr double least_size = 0x1p-40;
 
   OutlineLooks::Found look_at(OutlineCell& cell) {
     outline_.looks += cell.program->leaves.size();
@@ -224,7 +225,11 @@ class OutlineSearch {
     for (const std::vector<OutlinePiece>& loop : loops)
       for (const OutlinePiece& piece : loop) pieces.push_back(&piece);
     std::vector<std::vector<OutlinePoint>> points(pieces.size());
-    const PieceProver prover(looks_, wanted_deviation(loops));
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(
+        pieces, [](const OutlinePiece* piece) { return piece->face != OutlineCell::no_face; }));
+    int most_halvings = 4;
+    while (most_halvings < 14 && count << (most_halvings + 1) <= most_chords) ++most_halvings;
+    const PieceProver prover(looks_, wanted_deviation(loops), most_halvings);
     for_ranges(pieces.size(), cells_of_task, workers_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         prover.prove(cells_[pieces[i]->cell], *pieces[i], points[i]);

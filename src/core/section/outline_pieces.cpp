@@ -13,9 +13,6 @@ namespace crt::core {
 
 namespace {
 
-/// A piece is halved no more often than this.
-constexpr int most_halvings = 20;
-
 /// AxisPair has the coordinates of a point, by the number of the axis.
 using AxisPair = std::array<double, 2>;
 
@@ -195,7 +192,7 @@ void PieceProver::prove(const OutlineCell& cell, const OutlinePiece& piece,
     curve.narrow(part);
     OutlinePoint point{
         .place = part.from, .surface = face.surface, .deviation = curve.off_chord(part)};
-    const bool is_last = part.depth == most_halvings || !curve.can_be_halved(part);
+    const bool is_last = part.depth == most_halvings_ || !curve.can_be_halved(part);
     // What is straight is so to far less than what is wanted.
     const double straight =
         std::min(deviation_, 0x1p-20 * distance_between(part.from, part.to));

@@ -32,8 +32,9 @@ struct OutlinePiece {
 
 class PieceProver {
  public:
-  /// Arcs and chords are to be proved to a deviation.
-  PieceProver(const OutlineLooks& looks, double deviation) : looks_(looks), deviation_(deviation) {}
+  /// Arcs and chords are to be proved to a deviation. Each piece is halved up to so many times.
+  PieceProver(const OutlineLooks& looks, double deviation, int most_halvings)
+      : looks_(looks), deviation_(deviation), most_halvings_(most_halvings) {}
 
   /// Appends arcs and chords from the beginning of a piece to its end.
   void prove(const OutlineCell& cell, const OutlinePiece& piece,
@@ -45,6 +46,7 @@ class PieceProver {
 
   const OutlineLooks& looks_;
   double deviation_;
+  int most_halvings_;
 };
 
 }  // namespace crt::core

@@ -142,7 +142,7 @@ class SectionSearch {
           if (point.surface != no_surface) proved = std::max(proved, point.deviation);
         }
         const double left = std::max(question_.deviation - proved, 0.25 * question_.deviation);
-        FittedContour fitted = fit_contour(loop, left, 0x1p-30 * question_.size);
+        FittedContour fitted = fit_contour(loop, left, 0x1p-34 * question_.size);
         (fitted.contour.empty() ? narrow : kept).push_back(std::move(loop));
         if (fitted.contour.empty()) continue;
         off = std::max(off, fitted.off);
@@ -155,7 +155,9 @@ class SectionSearch {
         section.deviation = std::max(section.deviation, farthest_point(loop, kept));
     }
     section.area = {std::max(0.0, area.lo), std::max(0.0, area.hi)};
-    section.deviation += off;
+    // Coordinates are rounded.
+    off += 0x1p-48 * std::max(largest_component(box.lower), largest_component(box.upper));
+    if (!contours.empty()) section.deviation += off;
     std::stable_sort(contours.begin(), contours.end(), [](const auto& a, const auto& b) {
       return std::abs(a.first) > std::abs(b.first);
     });
