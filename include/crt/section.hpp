@@ -38,12 +38,14 @@ struct Section {
   SectionFrame frame{};
   /// Has closed lines of straight pieces and arcs in the coordinates of the drawing, as profiles
   /// have them. Outer ones go counterclockwise, and holes clockwise, so the solid is on the left.
-  /// They do not cross, the one that encloses most comes first, and make_profile() takes them.
+  /// The one that encloses most comes first. make_profile() takes them. Where two are nearer to
+  /// each other than the deviation, they may cross.
   std::vector<Contour> contours{};
   /// Proves how well they are known: each point of the true outline is within this distance of the
   /// contours, and each of their points is within it of the true outline. It is what was asked for
   /// or less, unless time or a limit ended the search. It is infinite if there may be a part of the
-  /// section of which no contour is known, as where a plane merely touches a sphere.
+  /// section of which no contour is known, as where a plane merely touches a cylinder. Parts and
+  /// holes that are smaller than 2^-36 times the box around the solid do not count.
   double deviation = 0;
   Interval area{};  ///< that of the section surely is in it, in squared scene units
   /// Has the corners of a box in the drawing that holds the contours. Nothing of the section is
@@ -63,8 +65,8 @@ struct Section {
 /// A plane that just coincides with a face of the solid cuts what is on the far side of the normal,
 /// as close to the plane as can be: that with normal z at the top of a box has the whole box, and
 /// at its bottom nothing. There the plane is moved against its normal by 2^-32 of half of the
-/// longest side of the box around the solid, and so it is where an edge of the solid lies in it and
-/// is not known otherwise. The frame says where it is in the end. A plane that is not across a
+/// longest side of the box around the solid. So it is where the plane touches the solid, or where an
+/// edge lies in it, if more is known then. The frame says where it is in the end. A plane that is not across a
 /// coordinate axis is one of the solid turned, which is rounded to about 1e-15 of its coordinates.
 ///
 /// The search ends after 2^16 cells for each part of the solid that is apart from others. Throws

@@ -29,12 +29,15 @@ class ContourFit {
     const bool has_corner = begin_at_corner();
     if (std::optional<FittedContour> circle = whole_circle(has_corner)) return finished(*circle);
     find_segments();
-    // The first segment may have begun in the midst of a line or an arc.
-    for (std::size_t i = 1; !has_corner && i < segments_.size(); ++i) {
-      if (!segments_[i].is_sure() && i + 1 < segments_.size()) continue;
-      begin_at(segments_[i].first);
+    // The first segment may have begun in the midst of a line or an arc, and the last ends there.
+    if (!has_corner && segments_.size() > 1) {
+      std::size_t longest = 1;
+      for (std::size_t i = 2; i + 1 < segments_.size(); ++i) {
+        if (piece_of_segment(segments_[i]).chord() > piece_of_segment(segments_[longest]).chord())
+          longest = i;
+      }
+      begin_at(segments_[longest].first);
       find_segments();
-      break;
     }
     if (add_joints()) find_segments();
     merge_segments();
@@ -190,6 +193,7 @@ class ContourFit {
   /// Returns whether there was any.
   bool add_joints() {
     bool is_any = false;
+    bool is_last = false;
     std::vector<OutlinePoint> points;
     points.reserve(points_.size());
     double most_off = 0;
@@ -212,11 +216,14 @@ class ContourFit {
                           .surface = at(after.first).surface});
         most_off = std::max(most_off, off);
         is_any = true;
+        is_last = i + 1 == segments_.size();
       } else {
         for (std::size_t k = gap.first; k < gap.last; ++k) points.push_back(at(k));
       }
     }
     points_ = std::move(points);
+    // What follows a joint at the end goes on over the beginning.
+    if (is_last) begin_at(points_.size() - 1);
     off_ += most_off;
     return is_any;
   }
@@ -262,12 +269,15 @@ class ContourFit {
 }  // namespace
 
 FittedContour fit_contour(const OutlineLoop& loop, double tolerance, double smallest) {
-  FittedContour result = ContourFit(loop, tolerance, smallest).run();
-  const bool encloses = result.contour.size() > 2 ||
-                        (result.contour.size() == 2 &&
-                         result.contour[0].bulge != -result.contour[1].bulge);
-  if (!encloses) result.contour.clear();
-  return result;
+  // Something narrow may need more corners than the tolerance does to enclose anything.
+  constexpr double less = 1.0 / 8;
+  for (double wanted = tolerance;; wanted *= less) {
+    FittedContour result = ContourFit(loop, wanted, smallest).run();
+    const Contour& contour = result.contour;
+    if (contour.size() > 2 || (contour.size() == 2 && contour[0].bulge != -contour[1].bulge))
+      return result;
+    if (wanted < smallest) return {};
+  }
 }
 
 }  // namespace crt::core

@@ -57,6 +57,8 @@ class OutlineSearch {
   static constexpr std::size_t most_cells = std::size_t{1} << 16;
   /// So few may be divided until they are as small as rounding.
   static constexpr std::size_t few_cells = 512;
+  /// All cells are linked anew after some were divided. That ends after so many.
+  static constexpr std::size_t most_cells_linked = std::size_t{1} << 19;
   static constexpr std::size_t most_chords = std::size_t{1} << 18;
   static constexpr double least_size = 0x1p-40;
 
@@ -114,6 +116,7 @@ class OutlineSearch {
     std::vector<OutlineCell> cells = simple_;
     cells.insert(cells.end(), left_.begin(), left_.end());
     edges_.find(cells, workers_);
+    cells_linked_ += cells.size();
     std::vector<std::vector<CellLink>> links(cells.size());
     std::vector<unsigned char> failed(cells.size());
     for_ranges(cells.size(), cells_of_task, workers_, [&](std::size_t begin, std::size_t end) {
@@ -134,7 +137,7 @@ class OutlineSearch {
       for (std::size_t i = 0; i < simple_.size(); ++i) {
         if (failed[i] == 0) {
           kept.push_back(std::move(simple_[i]));
-        } else if (!is_over && may_divide(simple_[i], count) &&
+        } else if (!is_over && cells_linked_ < most_cells_linked && may_divide(simple_[i], count) &&
                    !looks_.parts_of(simple_[i]).empty()) {
           again.push_back(std::move(simple_[i]));
         } else {
@@ -278,7 +281,9 @@ class OutlineSearch {
       const double area = size[0] * size[1] * (1 + 0x1p-40);
       outline_.area = outline_.area + Interval{-area, area};
       if (looks_.size(cells_[i]) > 0x1p-30 * grid_.size()) ++outline_.left_cells;
-      doubtful.push_back(std::move(cells_[i]));
+      // What is so small is left out of all that is promised.
+      if (looks_.size(cells_[i]) > 4 * least_size * grid_.size())
+        doubtful.push_back(std::move(cells_[i]));
     }
     outline_.deviation =
         std::max(outline_.deviation, farthest_doubt(looks_, doubtful, outline_.loops));
@@ -296,6 +301,7 @@ class OutlineSearch {
   std::vector<OutlineCell> left_;
   std::vector<OutlineCell> cells_;  ///< all of them, once they are linked
   std::vector<std::vector<CellLink>> links_;
+  std::size_t cells_linked_ = 0;
   Outline outline_;
 };
 

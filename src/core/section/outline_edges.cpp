@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/vector.hpp"
 #include "core/section/face_root.hpp"
 #include "core/tasks/parallel.hpp"
 
@@ -31,8 +32,7 @@ class EdgeSearch {
     const PlanePoint to = grid.at(edge_.end());
     const End begin{edge_.along == 0 ? from.x : from.y, from_inside};
     const End end{edge_.along == 0 ? to.x : to.y, to_inside};
-    tiny_ = 2 * grid.rounding();
-    if (!edge_.is_precise) tiny_ = std::max(tiny_, (end.place - begin.place) / rough_parts);
+    tiny_ = edge_.is_precise ? 2 * grid.rounding() : infinity;
     if (begin.place < end.place) search(begin, end);
     return looks_taken_;
   }
@@ -40,8 +40,6 @@ class EdgeSearch {
  private:
   /// An edge along a face that lies in it would be halved for ever.
   static constexpr std::size_t most_looks = 1U << 11;
-  /// Edges of which a place need not be precise are divided into so many.
-  static constexpr double rough_parts = 16;
 
   struct End {
     double place = 0;
@@ -88,7 +86,7 @@ class EdgeSearch {
   const OutlineCell& cell_;
   OutlineEdge& edge_;
   double across_ = 0;
-  double tiny_ = 0;
+  double tiny_ = 0;  ///< parts so small are not looked into
   std::uint64_t looks_taken_ = 0;
 };
 

@@ -35,16 +35,20 @@ struct PieceProver::Part {
   int depth = 0;
 };
 
-/// A Curve is that of one face in a cell: a graph over one axis.
+/// A Curve is that of one face in a cell: a graph over one axis, or over both.
 class PieceProver::Curve {
  public:
   Curve(const OutlineLooks& looks, const CellFace& face) : looks_(looks), face_(face) {
     axes_ = {grid().axis(0), grid().axis(1)};
-    // Of two axes it is that along which the curve runs more.
-    over_ = is_steep(face, axes_[1]) ? 0 : 1;
-    if (is_steep(face, axes_[0]) && is_steep(face, axes_[1]) &&
-        face.slopes[axes_[0]].magnitude() > face.slopes[axes_[1]].magnitude())
-      over_ = 1;
+  }
+
+  /// Chooses the axis over which the curve is a graph in a part: of two, that along which the part
+  /// is longer.
+  void choose_axis(const Part& part) {
+    const bool is_longer_along_first =
+        std::abs(part.to.x - part.from.x) >= std::abs(part.to.y - part.from.y);
+    over_ = is_longer_along_first ? 0 : 1;
+    if (part.slopes[1 - over_].contains(0)) over_ = 1 - over_;
     other_ = 1 - over_;
   }
 
@@ -179,7 +183,7 @@ void PieceProver::prove(const OutlineCell& cell, const OutlinePiece& piece,
   }
   const OutlineGrid& grid = looks_.grid();
   const CellFace& face = cell.look.faces[piece.face];
-  const Curve curve(looks_, face);
+  Curve curve(looks_, face);
   const bool has_series = looks_.solid().functions(face.leaf).has_series();
   std::vector<Part> open = {{.from = piece.from,
                              .to = piece.to,
@@ -189,6 +193,7 @@ void PieceProver::prove(const OutlineCell& cell, const OutlinePiece& piece,
   while (!open.empty()) {
     Part part = open.back();
     open.pop_back();
+    curve.choose_axis(part);
     curve.narrow(part);
     OutlinePoint point{
         .place = part.from, .surface = face.surface, .deviation = curve.off_chord(part)};

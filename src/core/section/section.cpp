@@ -31,6 +31,13 @@ struct AllOutlines {
   std::size_t left_cells = 0;
 };
 
+/// Returns how far points of a line are apart along an axis at most.
+double extent(const OutlineLoop& line) {
+  Bounds box;
+  for (const OutlinePoint& point : line) box.include({point.place.x, point.place.y, 0});
+  return largest_component(box.upper - box.lower);
+}
+
 /// Returns how far points of a narrow line are from others, or infinity if there are none.
 double farthest_point(const OutlineLoop& line, const std::vector<OutlineLoop>& others) {
   double farthest = 0;
@@ -143,6 +150,7 @@ class SectionSearch {
         }
         const double left = std::max(question_.deviation - proved, 0.25 * question_.deviation);
         FittedContour fitted = fit_contour(loop, left, 0x1p-34 * question_.size);
+        if (fitted.contour.empty() && extent(loop) <= 0x1p-32 * question_.size) continue;
         (fitted.contour.empty() ? narrow : kept).push_back(std::move(loop));
         if (fitted.contour.empty()) continue;
         off = std::max(off, fitted.off);
