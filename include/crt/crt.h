@@ -149,6 +149,8 @@ typedef struct crt_buffer crt_buffer;
 typedef struct crt_diagnostics crt_diagnostics;
 /** A crt_profile is a region of a plane, which you put together of contours. */
 typedef struct crt_profile crt_profile;
+/** A crt_section is what a plane cuts out of a solid. It is immutable. Since 1.1. */
+typedef struct crt_section crt_section;
 
 /** Adds a reference to an entity and returns it. */
 CRT_API crt_entity* crt_entity_retain(crt_entity* entity);
@@ -182,6 +184,10 @@ CRT_API crt_diagnostics* crt_diagnostics_retain(crt_diagnostics* diagnostics);
 /** Drops a reference to diagnostics, and with the last one all their texts. */
 CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
 
+/** Adds a reference to a section and returns it. Since 1.1. */
+CRT_API crt_section* crt_section_retain(crt_section* section);
+/** Drops a reference to a section, and with the last one its contours. Since 1.1. */
+CRT_API void crt_section_release(crt_section* section);
 /** Adds a reference to a profile and returns it. Since 1.1. */
 CRT_API crt_profile* crt_profile_retain(crt_profile* profile);
 /** Removes a reference. Since 1.1. */
@@ -1152,6 +1158,87 @@ CRT_API crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double
  */
 CRT_API crt_status crt_entity_contains(crt_entity* entity, const double* points, size_t stride,
                                        size_t count, int8_t* side);
+
+/** @} */
+
+/* ---- sections ------------------------------------------------------------------------------- */
+
+/** @defgroup sections Sections of solids
+ * A section is what a plane cuts out of a solid: contours of lines and arcs that are within a
+ * deviation of the true outline, which is proved from the solid's equations. docs/measure.md is a
+ * guide. Threads: Shared.
+ *
+ * A section's drawing is as somebody sees it who looks against the normal, with x to the right and
+ * y up. y is as near to y of the world as can be; for a plane across that it is z for a normal
+ * upwards, and -z for one downwards.
+ *
+ * @code{.c}
+ * static const double up[3] = {0, 1, 0};
+ * crt_section* section;
+ * if (crt_section_create(entity, up, 6, 0.01, &section) == CRT_OK) {
+ *   crt_section_write(section, "plate.svg");
+ *   crt_section_release(section);
+ * }
+ * @endcode
+ * @{ */
+
+/**
+ * Cuts a solid by the plane {p : normal . p / |normal| = offset}. A plane in a face of the solid
+ * cuts what is against the normal, as near to the plane as can be. There, and where an edge lies in
+ * it, it is moved by 2^-32 of half of the longest side of the box around the solid
+ * (crt_section_frame() tells). Since 1.1.
+ * @param normal     of any length but 0
+ * @param offset     in scene units
+ * @param deviation  that is asked for, in scene units: above 0
+ */
+CRT_API crt_status crt_section_create(crt_entity* entity, const double normal[3], double offset,
+                                      double deviation, crt_section** out);
+/** Gives the area of a section, to 1e-6 of itself unless its outline is hard to tell. Since 1.1. */
+CRT_API crt_status crt_section_area(const crt_section* section, crt_interval* out);
+/**
+ * Gives the deviation that is proved: each point of the true outline is within it of the contours,
+ * and each point of these within it of the outline. It is INFINITY if there may be a part of which
+ * no contour is known, as where a plane merely touches a cylinder. Since 1.1.
+ */
+CRT_API crt_status crt_section_deviation(const crt_section* section, double* out);
+/**
+ * Tells where the drawing is in the world: a point (x, y) of it is origin + x x_axis + y y_axis.
+ * Since 1.1.
+ * @param offset  gets that of the plane, which may be next to the one that was asked for
+ */
+CRT_API crt_status crt_section_frame(const crt_section* section, double origin[3], double x_axis[3],
+                                     double y_axis[3], double* offset);
+/**
+ * Lends the contours as points in the world, whose chords are within the deviation that was asked
+ * for of the lines and arcs. Each is closed, without its first point again at the end. Seen against
+ * the normal, outer ones go counterclockwise, and holes clockwise. Since 1.1.
+ * @param contour_count  gets how many contours there are
+ * @param first          gets an array of contour_count + 1 numbers: contour i has the points from
+ *                       first[i] up to before first[i + 1]
+ * @param points         gets the points, three numbers each. Both arrays are the section's: they
+ *                       live as long as it does
+ */
+CRT_API crt_status crt_section_contours(const crt_section* section, size_t* contour_count,
+                                        const size_t** first, const double** points);
+/**
+ * Gives the contours as they are, lines and arcs in the coordinates of the drawing, as a new
+ * profile. crt_profile_contour() tells their corners, and crt_extrusion_create() takes it. Since
+ * 1.1.
+ */
+CRT_API crt_status crt_section_profile(const crt_section* section, crt_profile** out);
+/**
+ * Writes a section as a drawing: SVG or DXF, by the ending .svg or .dxf of the name. A scene unit
+ * is a metre, so it prints at a scale of 1:1. Since 1.1.
+ */
+CRT_API crt_status crt_section_write(const crt_section* section, const char* path);
+/**
+ * Writes a section in another unit, and hatched. Since 1.1.
+ * @param unit   a crt_unit: what a scene unit is
+ * @param hatch  is the distance of hatching lines, which run at 45 degrees, in scene units; 0 draws
+ *               none
+ */
+CRT_API crt_status crt_section_write_with(const crt_section* section, const char* path,
+                                          int32_t unit, double hatch);
 
 /** @} */
 

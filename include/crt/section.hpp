@@ -108,4 +108,8 @@ std::string section_dxf(const Section& section, const SectionDrawing& drawing = 
 void write_section(const std::filesystem::path& path, const Section& section,
                    const SectionDrawing& drawing = {});
 
+/// Finds out, before there is a section, whether write_section() knows the ending of a name. Throws
+/// Error (unsupported).
+void check_section_name(const std::filesystem::path& path);
+
 }  // namespace crt

@@ -67,6 +67,7 @@ from .rays import (
 )
 from .rendering import Prepared
 from .scenes import Scene
+from .sections import Section
 from .values import (
     AmbientModel,
     ApertureShape,
@@ -152,6 +153,7 @@ __all__ = [
     "RoundedBox",
     "START",
     "Scene",
+    "Section",
     "ScriptError",
     "Settings",
     "Sphere",

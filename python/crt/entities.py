@@ -22,6 +22,7 @@ from ._library import create, library
 from ._materials import AnyMaterial, dressed
 from .measures import Interval, Mass
 from .rays import points_of
+from .sections import Section
 
 MOST_CALLS = 3  # that a representation shows
 
@@ -182,6 +183,16 @@ class Entity(Handle):
         """Returns volume, area, centroid and inertia of the solid, for a density of 1. It takes
         some times as long as the volume alone."""
         return measures.mass(self._handle, relative_width, seconds)
+
+    def section(
+        self, normal: Point, offset: SupportsFloat, deviation: SupportsFloat
+    ) -> Section:
+        """Returns what the plane of all p with normal . p = offset, for a normal of length 1, cuts
+        out of the solid: contours within `deviation` of the true outline."""
+        direction = _arguments.vector(normal, "section: normal")
+        place = _arguments.number(offset, "section: offset")
+        within = _arguments.number(deviation, "section: deviation")
+        return Section._adopt(create("crt_section_create", self._handle, direction, place, within))
 
     def contains(self, points: ArrayLike) -> NDArray[np.int8]:
         """Says of points, in an array of ... x 3 numbers, where they are: 1 inside of the solid, 0

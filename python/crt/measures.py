@@ -99,6 +99,13 @@ def interval(
     return found.plain()
 
 
+def section_area(section: Reference) -> Interval:
+    """Returns the area of a section."""
+    found = _Interval()
+    library.crt_section_area(section, ctypes.byref(found))
+    return found.plain()
+
+
 def mass(entity: Reference, relative_width: SupportsFloat, seconds: SupportsFloat | None) -> Mass:
     """Returns the mass properties of a solid."""
     found = _Mass(struct_size=ctypes.sizeof(_Mass))

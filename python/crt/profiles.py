@@ -26,7 +26,7 @@ def svg_path(path: str, *, even_odd: bool = False, deviation: SupportsFloat = 0)
     handle = _new_profile()
     with named("svg_path"):
         library.crt_profile_svg_path(handle, text, len(text), int(bool(even_odd)), within)
-    return _contours_of(handle)
+    return contours_of(handle)
 
 
 _ALIGNMENTS = ("left", "center", "right")  # as crt_text_alignment has them
@@ -63,14 +63,14 @@ def text_contours(
         )
     if missing.value:
         warnings.warn(f"text_contours: the font lacks {missing.value} of the letters", stacklevel=2)
-    return _contours_of(handle)
+    return contours_of(handle)
 
 
 def _new_profile() -> Reference:
     return Reference(create("crt_profile_create"), library.crt_profile_release)
 
 
-def _contours_of(handle: Reference) -> list[Contour]:
+def contours_of(handle: Reference) -> list[Contour]:
     """Returns the contours that a profile of C has."""
     contours = []
     count = ctypes.c_size_t()

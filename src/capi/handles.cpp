@@ -59,3 +59,10 @@ crt_profile* crt_profile_retain(crt_profile* profile) {
 void crt_profile_release(crt_profile* profile) {
   release(profile);
 }
+
+crt_section* crt_section_retain(crt_section* section) {
+  return retain(section);
+}
+void crt_section_release(crt_section* section) {
+  release(section);
+}

@@ -16,6 +16,7 @@
 #include "crt/primitives.hpp"
 #include "crt/scene.hpp"
 #include "crt/script.hpp"
+#include "crt/section.hpp"
 
 namespace crt::capi {
 
@@ -100,6 +101,12 @@ struct crt_diagnostics : crt::capi::Counted {
 struct crt_profile : crt::capi::Counted {
   std::vector<crt::Contour> contours;
   bool is_drawn = false;  ///< whether pieces can be added to the last contour
+};
+
+struct crt_section : crt::capi::Counted {
+  crt::Section value;
+  std::vector<std::size_t> first;  ///< point of each contour, and how many points there are
+  std::vector<double> points;
 };
 
 struct crt_file_content {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <crt/file.hpp>
 #include <crt/measure.hpp>
 #include <crt/schema_settings.hpp>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/intervals.hpp"
 #include "cli/measured.hpp"
+#include "cli/measured_section.hpp"
 #include "cli/picture_renderer.hpp"
 #include "cli/reporter.hpp"
 
@@ -43,6 +45,7 @@ class EntityMeasuring {
     if (all_ || request_.bounds) found.bounds = tight_bounding_box(entity, options_);
     try {
       measure_mass(entity, found);
+      if (request_.section) found.section = find_section(request_, entity, options_);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::invalid_argument) throw;
       found.fault = error.what();
@@ -168,6 +171,7 @@ std::string report(const Measured& found, const MeasureRequest& request, std::st
   add_number("mass", found.mass, "");
   if (found.centroid) add_line("centroid", centroid_text(*found.centroid, unit));
   if (found.inertia) add_line("inertia", "about the centroid" + inertia_text(*found.inertia));
+  if (found.section) text += section_text(*found.section, unit);
   return text;
 }
 
@@ -188,7 +192,17 @@ std::size_t line_of(const std::string& text, const EntityPlace& place) {
                  std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
 }
 
+/// Throws Error for a request that makes no sense.
+void check(const MeasureRequest& request) {
+  if (request.output.empty()) return;
+  if (!request.section)
+    throw Error(ErrorCode::invalid_argument, "-o writes a section: say which by --section");
+  check_section_name(request.output);
+  check_writable(request.output);
+}
+
 void measure(const MeasureRequest& request, Reporter& reporter) {
+  check(request);
   const InterruptScope interrupt;
   const auto go_on = [&] { return !interrupt.interrupted(); };
   ScriptOptions script_options = request.script;
@@ -208,6 +222,7 @@ void measure(const MeasureRequest& request, Reporter& reporter) {
         fmt::format("entity {} (line {})", place, line_of(text, result.entity_places.at(place)));
     parts.push_back(measuring.measure(entity, name));
   }
+  if (!request.output.empty()) write_sections(request, result.scene->settings.unit, parts);
   const std::string_view unit = schema::script_name_of(result.scene->settings.unit);
   if (request.json) {
     reporter.print(measures_json(request, script.name(), unit, parts, sum_of(parts)) + "\n",

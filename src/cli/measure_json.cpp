@@ -30,6 +30,26 @@ Json json_of(const std::array<Interval, count>& numbers) {
   return list;
 }
 
+Json json_of(const Section& section) {
+  const auto place = [](const std::array<double, 2>& p) { return Json::array({p[0], p[1]}); };
+  Json contours = Json::array();
+  for (const Contour& contour : section.contours) {
+    Json corners = Json::array();
+    for (const ProfilePoint& corner : contour)
+      corners.push_back({corner.x, corner.y, corner.bulge});
+    contours.push_back(std::move(corners));
+  }
+  return {{"area", json_of(section.area)},
+          {"deviation", json_of(section.deviation)},
+          {"lower", place(section.lower)},
+          {"upper", place(section.upper)},
+          {"offset", section.frame.offset},
+          {"origin", json_of(section.frame.origin)},
+          {"x_axis", json_of(section.frame.x_axis)},
+          {"y_axis", json_of(section.frame.y_axis)},
+          {"contours", std::move(contours)}};
+}
+
 Json json_of(const Measured& found) {
   Json object = {{"name", found.name}};
   const auto add_member = [&](const char* name, const auto& value) {
@@ -42,6 +62,7 @@ Json json_of(const Measured& found) {
   add_member("mass", found.mass);
   add_member("centroid", found.centroid);
   add_member("inertia", found.inertia);
+  add_member("section", found.section);
   return object;
 }
 

@@ -6,20 +6,72 @@
 
 namespace crt::cli {
 
+namespace {
+
+/// Reads "z=0.3" or "nx,ny,nz=offset".
+SectionPlane parse_plane(const std::string& text) {
+  const auto refuse = [&]() -> SectionPlane {
+    throw WrongValue("--section", "a plane as z=0.3 or 1,0,1=0.3", text);
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return refuse();
+  SectionPlane plane;
+  if (!parse_finite(text.substr(equals + 1), plane.offset)) return refuse();
+  const std::string direction = text.substr(0, equals);
+  if (direction == "x" || direction == "y" || direction == "z") {
+    plane.normal = {direction == "x" ? 1 : 0, direction == "y" ? 1 : 0, direction == "z" ? 1 : 0};
+    return plane;
+  }
+  std::size_t begin = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t comma = direction.find(',', begin);
+    if ((comma == std::string::npos) != (axis == 2)) return refuse();
+    const std::size_t count = comma == std::string::npos ? comma : comma - begin;
+    if (!parse_finite(direction.substr(begin, count), plane.normal[axis])) return refuse();
+    begin = comma + 1;
+  }
+  if (plane.normal == Vec3(0, 0, 0)) return refuse();
+  return plane;
+}
+
+void add_section_rows(std::vector<OptionRow>& rows, MeasureRequest& request) {
+  rows.push_back({.names = "--section",
+                  .type = "PLANE",
+                  .help = "the section by x=, y= or z= a number, or by NX,NY,NZ=OFFSET",
+                  .take = [&request](const std::string& text) {
+                    request.section = parse_plane(text);
+                  }});
+  rows.push_back({.names = "--deviation",
+                  .type = "D",
+                  .help = "how far the section's contours may be off (1e-4 of the size)",
+                  .take = into_positive("--deviation", request.deviation)});
+  rows.push_back({.names = "-o,--output",
+                  .type = "FILE",
+                  .help = "writes the section as .svg or .dxf, in the unit of the scene",
+                  .take = into_path(request.output)});
+  rows.push_back({.names = "--hatch",
+                  .type = "D",
+                  .help = "hatches what is written, with lines this far apart",
+                  .take = into_positive("--hatch", request.hatch)});
+}
+
+}  // namespace
+
 CommandTable measure_table(MeasureRequest& request) {
   CommandTable table{
       .name = "measure",
       .about = "Says how much the entities of a script are, and where.",
       .footer = R"(Numbers are printed with as many digits as are sure, and with bounds that
 surely hold the truth. They are in the unit of the script's Settings, metres by default. Of what is
-no solid, or has no end, it says why it has no volume. Without any of --volume, --area, --bounds
-and --mass it says all but the mass. docs/measure.md has more.
+no solid, or has no end, it says why it has no volume. Without any of --volume, --area, --bounds,
+--mass and --section it says all but the mass and the section. docs/measure.md has more.
 
 Examples:
   crt measure part.crt                            bounds, volume, area, centroid
   crt measure part.crt --unit mm --mass --density 7.85e-6
                                                   mass, centroid and inertia, here in kg and mm
-  crt measure part.crt --volume --relative-width 1e-9 --json)",
+  crt measure part.crt --volume --relative-width 1e-9 --json
+  crt measure part.crt --section y=6 -o part.dxf  the area of a section, and its drawing)",
       .rows = {}};
   std::vector<OptionRow>& rows = table.rows;
   add_scene_row(rows, request.scene, "the script; - is standard input");
@@ -37,6 +89,7 @@ Examples:
                     request.density = parse_positive("--density", text);
                     request.mass = true;
                   }});
+  add_section_rows(rows, request);
   rows.push_back({.names = "--relative-width",
                   .type = "W",
                   .help = fmt::format("how wide bounds on a number may be, for its size ({})",

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <crt/measure.hpp>
+#include <crt/section.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@ struct Measured {
   std::optional<Interval> mass;
   std::optional<std::array<Interval, 3>> centroid;
   std::optional<std::array<Interval, 6>> inertia;
+  std::optional<Section> section{};
 };
 
 /// Says whether a box is that of nothing.

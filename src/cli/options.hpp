@@ -114,21 +114,31 @@ struct TradeRequest : CommonRequest {
   std::optional<double> error;
 };
 
+/// A SectionPlane is {p : normal . p / |normal| = offset}.
+struct SectionPlane {
+  Vec3 normal{0, 0, 1};
+  double offset = 0;
+};
+
 /// A MeasureRequest asks how much entities are, and where.
 struct MeasureRequest : CommonRequest {
   std::filesystem::path scene;
-  // If none of these is asked for, all but the mass are.
+  // If none of these is asked for, all but the mass and the section are.
   bool volume = false;
   bool area = false;
   bool bounds = false;
   bool mass = false;  ///< with it the centroid and the inertia
+  std::optional<SectionPlane> section;
+  double deviation = 0;          ///< of the section; 0 stands for a share of the size
+  std::filesystem::path output;  ///< gets the section; empty for none
+  double hatch = 0;
   double density = 1;
   double relative_width = 1e-4;
   double seconds = std::numeric_limits<double>::infinity();  ///< that each number may take
   int threads = 0;
   bool json = false;
 
-  bool asks_for_some() const { return volume || area || bounds || mass; }
+  bool asks_for_some() const { return volume || area || bounds || mass || section; }
 };
 
 /// Says what is asked of a script's scene.

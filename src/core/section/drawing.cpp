@@ -46,6 +46,15 @@ std::vector<HatchLine> hatch_lines(const Section& section, const SectionDrawing&
   return hatching(section.contours, drawing.hatch);
 }
 
+/// Returns the ending of a name in small letters.
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return ending;
+}
+
 /// Returns a coordinate that grows downwards in the picture.
 double downwards(double y) {
   return 0 - y;
@@ -205,17 +214,18 @@ std::string section_dxf(const Section& section, const SectionDrawing& drawing) {
   return dxf.text;
 }
 
-void write_section(const std::filesystem::path& path, const Section& section,
-                   const SectionDrawing& drawing) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+void check_section_name(const std::filesystem::path& path) {
+  const std::string ending = core::ending_of(path);
   if (ending != ".svg" && ending != ".dxf")
     throw Error(ErrorCode::unsupported,
                 "sections are written as .svg or .dxf, not as \"" + path.string() + "\"", "path");
-  write_file(path, ending == ".svg" ? section_svg(section, drawing)
-                                    : section_dxf(section, drawing));
+}
+
+void write_section(const std::filesystem::path& path, const Section& section,
+                   const SectionDrawing& drawing) {
+  check_section_name(path);
+  write_file(path, core::ending_of(path) == ".svg" ? section_svg(section, drawing)
+                                                   : section_dxf(section, drawing));
 }
 
 }  // namespace crt
