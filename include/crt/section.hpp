@@ -71,8 +71,8 @@ struct Section {
 ///
 /// The search ends after 2^16 cells for each part of the solid that is apart from others. Throws
 /// Error (invalid_argument) for a normal of no length, numbers that are not finite, a deviation
-/// that is not above 0, and for a solid that has no bounds or, as those of type Custom, no
-/// equations; else as the other measures do.
+/// that is not above 0, and for what has no inside or no bounds; else as the other measures do. Of
+/// Custom solids nothing is known but their box, so that the deviation is infinite.
 Section section(const Entity& entity, const Vec3& normal, double offset, double deviation,
                 const MeasureOptions& options = {});
 

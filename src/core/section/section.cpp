@@ -198,9 +198,6 @@ Section section(const Entity& entity, const Vec3& normal, double offset, double 
     const core::SectionPlane plane = core::section_plane(normal, offset, turned);
     const core::EntityCells cells(turned);
     cells.check_bounded();
-    if (!cells.has_all_functions())
-      throw Error(ErrorCode::invalid_argument,
-                  "a solid of type Custom has no equations to find a section from");
     return core::SectionSearch(cells, plane, deviation, options).run();
   });
 }
