@@ -3,6 +3,7 @@
 
 #include <crt/crt.h>
 
+#include <cstddef>
 #include <cstdint>
 
 #include "fuzz_input.hpp"
@@ -13,6 +14,23 @@ inline void require_order(const crt_interval& interval) {
   require(interval.lower <= interval.upper);
 }
 
+/// Cuts an entity by a plane.
+inline void cut_entity(Input& input, crt_entity* entity) {
+  const auto normal = input.vector();
+  crt_section* section = nullptr;
+  if (crt_section_create(entity, normal.data(), input.number(), input.number(), &section) != CRT_OK)
+    return require(section == nullptr);
+  crt_interval area;
+  require(crt_section_area(section, &area) == CRT_OK);
+  require_order(area);
+  std::size_t count = 0;
+  const std::size_t* first = nullptr;
+  const double* points = nullptr;
+  require(crt_section_contours(section, &count, &first, &points) == CRT_OK);
+  for (std::size_t i = 0; i < count; ++i) require(first[i] < first[i + 1]);
+  crt_section_release(section);
+}
+
 /// Asks all that can be asked of an entity, for little time.
 inline void measure_entity(Input& input, crt_entity* entity) {
   constexpr std::uint64_t enough = 64;
@@ -21,6 +39,7 @@ inline void measure_entity(Input& input, crt_entity* entity) {
   double lower[3];
   double upper[3];
   crt_entity_bounds(entity, lower, upper);
+  if (input.below(8) == 0) cut_entity(input, entity);
   std::int8_t side = 7;
   const crt_status asked = crt_entity_contains(entity, point.data(), 0, 1, &side);
   require(asked == CRT_OK ? side >= -1 && side <= 1 : side == 7);

@@ -1,4 +1,5 @@
 // Measures of solids through the C interface: intervals that hold the truth, boxes, and points.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -183,4 +184,119 @@ TEST_CASE("mass properties are written as far as the caller's struct goes") {
   mass.struct_size = 0;
   CHECK(crt_entity_mass(ball.get(), 1e-3, 0, &mass) == CRT_ERROR_INVALID_ARGUMENT);
   CHECK(says("struct_size"));
+}
+
+TEST_CASE("a section has contours of points, a profile, an area and a place") {
+  const EntityHandle part = half_torus();
+  const double up[3] = {0, 3, 0};
+  crt_section* section = nullptr;
+  REQUIRE(crt_section_create(part.get(), up, 0, 1e-3, &section) == CRT_OK);
+  crt_interval area;
+  REQUIRE(crt_section_area(section, &area) == CRT_OK);
+  CHECK(holds(area, 2 * pi));
+  double deviation = -1;
+  REQUIRE(crt_section_deviation(section, &deviation) == CRT_OK);
+  CHECK(deviation >= 0);
+  CHECK(deviation <= 1e-3);
+  double origin[3];
+  double x_axis[3];
+  double y_axis[3];
+  double offset = 1;
+  REQUIRE(crt_section_frame(section, origin, x_axis, y_axis, &offset) == CRT_OK);
+  CHECK(offset == 0);
+  CHECK(x_axis[0] == 1);
+  CHECK(y_axis[2] == 1);
+
+  std::size_t contours = 0;
+  const std::size_t* first = nullptr;
+  const double* points = nullptr;
+  REQUIRE(crt_section_contours(section, &contours, &first, &points) == CRT_OK);
+  REQUIRE(contours == 1);
+  CHECK(first[0] == 0);
+  REQUIRE(first[1] > 8);
+  double twice = 0;
+  for (std::size_t i = 0; i < first[1]; ++i) {
+    const double* const p = points + 3 * i;
+    const double* const q = points + 3 * ((i + 1) % first[1]);
+    const double radius = std::hypot(p[0], p[2]);
+    CHECK(p[1] == 0);
+    CHECK(radius >= 1.5 - 2e-3);
+    CHECK(radius <= 2.5 + 2e-3);
+    twice += p[0] * q[2] - p[2] * q[0];
+  }
+  CHECK(0.5 * twice == doctest::Approx(2 * pi).epsilon(1e-2));
+
+  crt_profile* profile = nullptr;
+  REQUIRE(crt_section_profile(section, &profile) == CRT_OK);
+  std::size_t corners = 0;
+  REQUIRE(crt_profile_contour(profile, 0, nullptr, 0, &corners) == CRT_OK);
+  CHECK(corners >= 4);
+  CHECK(corners <= 6);
+  crt_profile_release(profile);
+
+  CHECK(crt_section_retain(section) == section);
+  crt_section_release(section);
+  CHECK(crt_section_write(section, "/no/such/folder/part.svg") == CRT_ERROR_IO);
+  CHECK(crt_section_write(section, "part.pdf") == CRT_ERROR_UNSUPPORTED);
+  CHECK(crt_section_write_with(section, "part.svg", 4, 0) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(crt_section_write_with(section, "part.svg", CRT_UNIT_MM, -1) == CRT_ERROR_INVALID_ARGUMENT);
+  crt_section_release(section);
+  CHECK(crt_section_retain(nullptr) == nullptr);
+  crt_section_release(nullptr);
+}
+
+TEST_CASE("a section of nothing has no contours") {
+  const EntityHandle ball = sphere({0, 0, 0}, 1);
+  const double up[3] = {0, 1, 0};
+  crt_section* section = nullptr;
+  REQUIRE(crt_section_create(ball.get(), up, 2, 1e-3, &section) == CRT_OK);
+  std::size_t contours = 1;
+  const std::size_t* first = nullptr;
+  const double* points = nullptr;
+  REQUIRE(crt_section_contours(section, &contours, &first, &points) == CRT_OK);
+  CHECK(contours == 0);
+  CHECK(first[0] == 0);
+  crt_section_release(section);
+}
+
+TEST_CASE("what is wrong with a question about a section is named") {
+  const EntityHandle ball = sphere({0, 0, 0}, 1);
+  const double up[3] = {0, 1, 0};
+  const double none[3] = {0, 0, 0};
+  crt_section* section = nullptr;
+  const auto names = [](crt_status status, const char* argument) {
+    CHECK(status == CRT_ERROR_INVALID_ARGUMENT);
+    CHECK(std::string(crt_error_message()).find(argument) != std::string::npos);
+  };
+  names(crt_section_create(nullptr, up, 0, 1, &section), "entity");
+  names(crt_section_create(ball.get(), nullptr, 0, 1, &section), "normal");
+  names(crt_section_create(ball.get(), none, 0, 1, &section), "normal");
+  names(crt_section_create(ball.get(), up, INFINITY, 1, &section), "offset");
+  names(crt_section_create(ball.get(), up, 0, 0, &section), "deviation");
+  names(crt_section_create(ball.get(), up, 0, 1, nullptr), "out");
+  CHECK(section == nullptr);
+  crt_interval area;
+  double number;
+  std::size_t count;
+  const std::size_t* first;
+  const double* points;
+  crt_profile* profile;
+  double place[3];
+  names(crt_section_area(nullptr, &area), "section");
+  names(crt_section_deviation(nullptr, &number), "section");
+  names(crt_section_frame(nullptr, place, place, place, &number), "section");
+  names(crt_section_contours(nullptr, &count, &first, &points), "section");
+  names(crt_section_profile(nullptr, &profile), "section");
+  names(crt_section_write(nullptr, "part.svg"), "section");
+  REQUIRE(crt_section_create(ball.get(), up, 0, 1e-2, &section) == CRT_OK);
+  names(crt_section_area(section, nullptr), "out");
+  names(crt_section_deviation(section, nullptr), "out");
+  names(crt_section_frame(section, nullptr, place, place, &number), "origin");
+  names(crt_section_contours(section, nullptr, &first, &points), "contour_count");
+  names(crt_section_contours(section, &count, nullptr, &points), "first");
+  names(crt_section_contours(section, &count, &first, nullptr), "points");
+  names(crt_section_profile(section, nullptr), "out");
+  names(crt_section_write(section, nullptr), "path");
+  names(crt_section_write(section, ""), "path");
+  crt_section_release(section);
 }

@@ -165,3 +165,42 @@ TEST_CASE_FIXTURE(Fixture, "time that is over leaves wider bounds that hold the 
   const Json json = measured({"ball.crt", "--relative-width", "1e-12", "--seconds", "1e-6"});
   CHECK(holds(json["entities"].items[0]["volume"], 4 * pi / 3));
 }
+
+TEST_CASE_FIXTURE(Fixture, "a section has an area, contours and a drawing") {
+  const Json json = measured({"parts.crt", "--section", "z=0.5", "--deviation", "0.01"});
+  const Json& plate = json["entities"].items[0];
+  CHECK(!plate.has("volume"));
+  const Json& section = plate["section"];
+  CHECK(holds(section["area"], 8 - pi / 4));
+  CHECK(section["deviation"].number <= 0.01);
+  CHECK(section["contours"].items.size() == 2);
+  CHECK(section["contours"].items[0].items.size() == 4);
+  CHECK(section["contours"].items[1].items.size() == 2);
+  CHECK(section["upper"].items[1].number == doctest::Approx(2));
+  CHECK(json["entities"].items[2].has("fault"));  // the disc is no solid
+  const Json slanted = measured({"ball.crt", "--section", "1,2,2=0.6"});
+  CHECK(holds(slanted["entities"].items[0]["section"]["area"], pi * 0.64));
+
+  const Outcome run = run_crt(folder, {"measure", "parts.crt", "--section", "z=0.5", "-o", "a.svg"});
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.out, "contours  2, within"));
+  CHECK(contains(folder.read("a.svg"), "mm\""));
+  CHECK(run_crt(folder, {"measure", "ball.crt", "--section", "x=0", "--hatch", "0.1", "-o", "b.dxf"})
+            .exit_code == 0);
+  CHECK(contains(folder.read("b.dxf"), "HATCH"));
+  const Outcome none = run_crt(folder, {"measure", "ball.crt", "--section", "x=7"});
+  CHECK(contains(none.out, "section   none"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "wrong questions about sections are refused") {
+  for (const char* const plane : {"z", "w=1", "z=", "1,2=3", "1,2,3,4=5", "0,0,0=1", "z=inf", ""}) {
+    CAPTURE(plane);
+    const Outcome run = run_crt(folder, {"measure", "ball.crt", "--section", plane});
+    CHECK(run.exit_code != 0);
+    CHECK(contains(run.err, "--section"));
+  }
+  CHECK(run_crt(folder, {"measure", "ball.crt", "-o", "a.svg"}).exit_code != 0);
+  CHECK(run_crt(folder, {"measure", "ball.crt", "--section", "z=0", "-o", "a.png"}).exit_code != 0);
+  CHECK(run_crt(folder, {"measure", "ball.crt", "--section", "z=0", "--deviation", "0"}).exit_code !=
+        0);
+}
