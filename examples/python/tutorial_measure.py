@@ -26,6 +26,14 @@ def share_inside(part: crt.Entity, count: int) -> float:
     return float((part.contains(points) >= 0).mean())
 
 
+def draw_section(part: crt.Entity, file: str) -> crt.Section:
+    """Writes what a plane half-way up cuts out of a part, hatched, as SVG or DXF."""
+    low, high = part.bounds
+    section = part.section((0, 1, 0), offset=(low[1] + high[1]) / 2, deviation=1e-4)
+    section.write(file, unit="m", hatch=0.1)
+    return section
+
+
 if __name__ == "__main__":
     print("\n".join(report(bracket())))
     print("of its box it fills", round(share_inside(bracket(), 100_000), 2))

@@ -65,9 +65,10 @@ struct Section {
 /// A plane that just coincides with a face of the solid cuts what is on the far side of the normal,
 /// as close to the plane as can be: that with normal z at the top of a box has the whole box, and
 /// at its bottom nothing. There the plane is moved against its normal by 2^-32 of half of the
-/// longest side of the box around the solid. So it is where the plane touches the solid, or where an
-/// edge lies in it, if more is known then. The frame says where it is in the end. A plane that is not across a
-/// coordinate axis is one of the solid turned, which is rounded to about 1e-15 of its coordinates.
+/// longest side of the box around the solid. So it is where the plane touches the solid, or where
+/// an edge lies in it, if more is known then. The frame says where it is in the end. A plane that
+/// is not across a coordinate axis is one of the solid turned, which is rounded to about 1e-15 of
+/// its coordinates.
 ///
 /// The search ends after 2^16 cells for each part of the solid that is apart from others. Throws
 /// Error (invalid_argument) for a normal of no length, numbers that are not finite, a deviation

@@ -39,14 +39,10 @@ Json json_of(const Section& section) {
       corners.push_back({corner.x, corner.y, corner.bulge});
     contours.push_back(std::move(corners));
   }
-  return {{"area", json_of(section.area)},
-          {"deviation", json_of(section.deviation)},
-          {"lower", place(section.lower)},
-          {"upper", place(section.upper)},
-          {"offset", section.frame.offset},
-          {"origin", json_of(section.frame.origin)},
-          {"x_axis", json_of(section.frame.x_axis)},
-          {"y_axis", json_of(section.frame.y_axis)},
+  return {{"area", json_of(section.area)},           {"deviation", json_of(section.deviation)},
+          {"lower", place(section.lower)},           {"upper", place(section.upper)},
+          {"offset", section.frame.offset},          {"origin", json_of(section.frame.origin)},
+          {"x_axis", json_of(section.frame.x_axis)}, {"y_axis", json_of(section.frame.y_axis)},
           {"contours", std::move(contours)}};
 }
 

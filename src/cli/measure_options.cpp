@@ -35,12 +35,11 @@ SectionPlane parse_plane(const std::string& text) {
 }
 
 void add_section_rows(std::vector<OptionRow>& rows, MeasureRequest& request) {
-  rows.push_back({.names = "--section",
-                  .type = "PLANE",
-                  .help = "the section by x=, y= or z= a number, or by NX,NY,NZ=OFFSET",
-                  .take = [&request](const std::string& text) {
-                    request.section = parse_plane(text);
-                  }});
+  rows.push_back(
+      {.names = "--section",
+       .type = "PLANE",
+       .help = "the section by x=, y= or z= a number, or by NX,NY,NZ=OFFSET",
+       .take = [&request](const std::string& text) { request.section = parse_plane(text); }});
   rows.push_back({.names = "--deviation",
                   .type = "D",
                   .help = "how far the section's contours may be off (1e-4 of the size)",

@@ -33,14 +33,13 @@ std::string section_text(const Section& section, std::string_view unit) {
     add_line("section", "none");
     return text;
   }
-  add_line("section", fmt::format("{} {}2, {}", number_text(section.area), unit,
-                                  bounds_text(section.area)));
+  add_line("section",
+           fmt::format("{} {}2, {}", number_text(section.area), unit, bounds_text(section.area)));
   const double off = section.deviation;
-  add_line("contours",
-           std::isfinite(off)
-               ? fmt::format("{}, within {} {}", section.contours.size(),
-                             end_text(off, 100 * off, true), unit)
-               : fmt::format("{}, and there may be more", section.contours.size()));
+  add_line("contours", std::isfinite(off)
+                           ? fmt::format("{}, within {} {}", section.contours.size(),
+                                         end_text(off, 100 * off, true), unit)
+                           : fmt::format("{}, and there may be more", section.contours.size()));
   if (section.empty()) return text;
   const auto place = [&](const std::array<double, 2>& p) {
     return fmt::format("({}, {})", end_text(p[0], off, false), end_text(p[1], off, false));

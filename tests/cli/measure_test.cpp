@@ -101,6 +101,10 @@ TEST_CASE_FIXTURE(Fixture, "the guide shows what is printed of its example") {
   CHECK_MESSAGE(
       contains(page, "<!-- printed by crt measure plate.crt -->\n```\n" + run.out + "```\n"),
       run.out);
+  const Outcome section = run_crt(folder, {"measure", "plate.crt", "--section", "y=6"});
+  CHECK_MESSAGE(contains(page, "<!-- printed by crt measure plate.crt --section y=6 -->\n```\n" +
+                                   section.out + "```\n"),
+                section.out);
 }
 
 TEST_CASE_FIXTURE(Fixture, "only what is asked for is said") {
@@ -181,12 +185,14 @@ TEST_CASE_FIXTURE(Fixture, "a section has an area, contours and a drawing") {
   const Json slanted = measured({"ball.crt", "--section", "1,2,2=0.6"});
   CHECK(holds(slanted["entities"].items[0]["section"]["area"], pi * 0.64));
 
-  const Outcome run = run_crt(folder, {"measure", "parts.crt", "--section", "z=0.5", "-o", "a.svg"});
+  const Outcome run =
+      run_crt(folder, {"measure", "parts.crt", "--section", "z=0.5", "-o", "a.svg"});
   CHECK(run.exit_code == 0);
   CHECK(contains(run.out, "contours  2, within"));
   CHECK(contains(folder.read("a.svg"), "mm\""));
-  CHECK(run_crt(folder, {"measure", "ball.crt", "--section", "x=0", "--hatch", "0.1", "-o", "b.dxf"})
-            .exit_code == 0);
+  CHECK(
+      run_crt(folder, {"measure", "ball.crt", "--section", "x=0", "--hatch", "0.1", "-o", "b.dxf"})
+          .exit_code == 0);
   CHECK(contains(folder.read("b.dxf"), "HATCH"));
   const Outcome none = run_crt(folder, {"measure", "ball.crt", "--section", "x=7"});
   CHECK(contains(none.out, "section   none"));
@@ -201,6 +207,7 @@ TEST_CASE_FIXTURE(Fixture, "wrong questions about sections are refused") {
   }
   CHECK(run_crt(folder, {"measure", "ball.crt", "-o", "a.svg"}).exit_code != 0);
   CHECK(run_crt(folder, {"measure", "ball.crt", "--section", "z=0", "-o", "a.png"}).exit_code != 0);
-  CHECK(run_crt(folder, {"measure", "ball.crt", "--section", "z=0", "--deviation", "0"}).exit_code !=
-        0);
+  CHECK(
+      run_crt(folder, {"measure", "ball.crt", "--section", "z=0", "--deviation", "0"}).exit_code !=
+      0);
 }

@@ -153,12 +153,12 @@ void check_section(const Entity& solid, const Section& section, const BoundingBo
 
   std::vector<Vec3> on_contours;
   for (const SectionPolyline& line : section_polylines(section, 1e-3 * largest)) {
-    for (std::size_t i = 0; i < line.size(); i += 1 + line.size() / 8) on_contours.push_back(line[i]);
+    for (std::size_t i = 0; i < line.size(); i += 1 + line.size() / 8)
+      on_contours.push_back(line[i]);
   }
   if (on_contours.size() > 32) on_contours.resize(32);
   std::vector<NearestPoint> nearest(on_contours.size());
-  if (!on_contours.empty())
-    nearest_points(solid, on_contours, nearest, {.relative_width = 1e-2});
+  if (!on_contours.empty()) nearest_points(solid, on_contours, nearest, {.relative_width = 1e-2});
   for (const NearestPoint& found : nearest) {
     const double least = std::max(found.distance.lower, -found.distance.upper);
     CHECK(least <= section.deviation + 1e-11 * largest);
@@ -206,8 +206,8 @@ TEST_CASE("sections of boxes are polygons, and the frame says where they are") {
   };
   // The world is left-handed. Whoever looks along z has x to the right and y up.
   const std::vector<Side> sides = {
-      {along_z, 1, 2, {-1, 0, 0}, {0, 1, 0}}, {-along_z, -1, 2, {1, 0, 0}, {0, 1, 0}},
-      {along_y, 1, 3, {1, 0, 0}, {0, 0, 1}},  {-along_y, -1, 3, {1, 0, 0}, {0, 0, -1}},
+      {along_z, 1, 2, {-1, 0, 0}, {0, 1, 0}},  {-along_z, -1, 2, {1, 0, 0}, {0, 1, 0}},
+      {along_y, 1, 3, {1, 0, 0}, {0, 0, 1}},   {-along_y, -1, 3, {1, 0, 0}, {0, 0, -1}},
       {along_x, 0.5, 6, {0, 0, 1}, {0, 1, 0}}, {-along_x, -0.5, 6, {0, 0, -1}, {0, 1, 0}}};
   for (const Side& side : sides) {
     const Section found = check_known(box, 7.0 * side.normal, side.offset, side.area, 1);
@@ -226,9 +226,8 @@ TEST_CASE("sections of boxes are polygons, and the frame says where they are") {
     }
     CHECK(signed_area(polygon_of(found.contours[0])) == doctest::Approx(side.area));
   }
-  CHECK(check_known(box, {1, 1, 1}, 1.5 / std::sqrt(3.0), std::sqrt(3.0), 1)
-            .contours[0]
-            .size() == 4);
+  CHECK(check_known(box, {1, 1, 1}, 1.5 / std::sqrt(3.0), std::sqrt(3.0), 1).contours[0].size() ==
+        4);
 }
 
 TEST_CASE("a plane in a face of a solid cuts what is against its normal") {
@@ -307,7 +306,8 @@ TEST_CASE("a torus has rings, ovals and circles") {
   const double sine = thickness / radius;
   const Vec3 normal(-sine, std::sqrt(1 - sine * sine), 0);
   const double apart = thickness / radius;
-  const double lens = radius * radius * (2 * std::acos(apart) - 2 * apart * std::sqrt(1 - apart * apart));
+  const double lens =
+      radius * radius * (2 * std::acos(apart) - 2 * apart * std::sqrt(1 - apart * apart));
   const Section found = section(torus, normal, 0, 1e-3);
   CHECK(found.deviation <= 1e-3);
   CHECK(found.area.contains(2 * (pi * radius * radius - lens)));
@@ -334,16 +334,14 @@ TEST_CASE("a drilled plate has lines and full circles") {
   // Turned in any way, it has as many lines and circles.
   const Transform turn = rotate_degrees({17, 31, -59});
   const Vec3 normal(turn.row_x.y, turn.row_y.y, turn.row_z.y);
-  const Section turned =
-      check_known(plate.transformed(turn), normal, 6, 6000 - 64 * pi, 5, 1e-2);
+  const Section turned = check_known(plate.transformed(turn), normal, 6, 6000 - 64 * pi, 5, 1e-2);
   CHECK(corner_count(turned) == 12);
 }
 
 TEST_CASE("lines and arcs that touch end where they touch") {
-  const Entity slot =
-      Entity(Box{.corner_a = {-1, -0.5, -1}, .corner_b = {1, 0.5, 1}}) +
-      Entity(Cylinder{.from = {-1, 0, -1}, .to = {-1, 0, 1}, .radius = 0.5}) +
-      Entity(Cylinder{.from = {1, 0, -1}, .to = {1, 0, 1}, .radius = 0.5});
+  const Entity slot = Entity(Box{.corner_a = {-1, -0.5, -1}, .corner_b = {1, 0.5, 1}}) +
+                      Entity(Cylinder{.from = {-1, 0, -1}, .to = {-1, 0, 1}, .radius = 0.5}) +
+                      Entity(Cylinder{.from = {1, 0, -1}, .to = {1, 0, 1}, .radius = 0.5});
   for (const Entity& solid :
        {slot, Entity(Capsule{.from = {-1, 0, 0}, .to = {1, 0, 0}, .radius = 0.5})}) {
     const Section found = check_known(solid, -along_z, 0, 2 + pi / 4, 1);
@@ -450,9 +448,8 @@ TEST_CASE("sections of random solids of all primitives hold what points say") {
         CHECK(section(whole, along_z, middle.z, 1e-2 * largest).deviation > 1e-2 * largest);
         continue;
       }
-      const Entity cut =
-          whole - Entity(Sphere{.center = middle + 0.3 * size * random.in_cube(),
-                                .radius = 0.3 * largest});
+      const Entity cut = whole - Entity(Sphere{.center = middle + 0.3 * size * random.in_cube(),
+                                               .radius = 0.3 * largest});
       for (const Entity& solid : {whole, cut}) {
         for (int plane = 0; plane < 3; ++plane) {
           CAPTURE(plane);
@@ -530,7 +527,8 @@ TEST_CASE("what is no question about a section is an error") {
   CHECK(code(ball, {0, 0, 0}, 0, 1e-3) == ErrorCode::invalid_argument);
   CHECK(code(ball, {0, nan, 0}, 0, 1e-3) == ErrorCode::invalid_argument);
   CHECK(code(ball, {0, infinite, 0}, 0, 1e-3) == ErrorCode::invalid_argument);
-  for (const double bad : {infinite, nan}) CHECK(code(ball, along_z, bad, 1e-3) == ErrorCode::invalid_argument);
+  for (const double bad : {infinite, nan})
+    CHECK(code(ball, along_z, bad, 1e-3) == ErrorCode::invalid_argument);
   for (const double bad : {0.0, -1.0, infinite, nan})
     CHECK(code(ball, along_z, 0, bad) == ErrorCode::invalid_argument);
   CHECK(code(Plane{}, along_z, 0, 1e-3) == ErrorCode::invalid_argument);

@@ -1,7 +1,9 @@
 """These tests run the example programs in Python."""
 
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 from support import SOURCE
@@ -84,6 +86,12 @@ class Tutorial(unittest.TestCase):
         self.assertTrue(centroid.endswith("0.00, 0.59, 0.55"))
         share = tutorial_measure.share_inside(tutorial_scene.bracket(), 20_000)
         self.assertAlmostEqual(share, 5.58936 / 36, delta=0.01)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "bracket.dxf"
+            section = tutorial_measure.draw_section(tutorial_scene.bracket(), str(file))
+            self.assertIn("HATCH", file.read_text())
+        self.assertLessEqual(section.deviation, 1e-4)
+        self.assertGreater(section.area.lower, 0)
 
     def test_a_render_is_watched_and_may_be_stopped(self):
         scene = small(tutorial_scene.bracket_scene())

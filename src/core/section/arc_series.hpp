@@ -11,7 +11,8 @@ namespace crt::core {
 /// Series of arcs are good up to this bulge: about a tenth of a circle.
 inline constexpr double most_bulge_of_series = 0.15;
 
-/// Returns the points of an arc or a chord for s from -1 to 1. Coordinates may be off by `rounding`.
+/// Returns the points of an arc or a chord for s from -1 to 1. Coordinates may be off by
+/// `rounding`.
 std::array<PatchSeries, 2> arc_series(const ContourPiece& arc, double rounding);
 
 /// Encloses what is between an arc of a chord of a known length and the chord: above 0 for a bulge

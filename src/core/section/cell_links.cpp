@@ -13,9 +13,7 @@ namespace {
 class CornerSearch {
  public:
   CornerSearch(const OutlineLooks& looks, const OutlineCell& cell)
-      : looks_(looks),
-        lower_(looks.grid().at(cell.lower)),
-        upper_(looks.grid().at(cell.upper)) {}
+      : looks_(looks), lower_(looks.grid().at(cell.lower)), upper_(looks.grid().at(cell.upper)) {}
 
   std::optional<PlanePoint> find(const CellFace& first, const CellFace& second) const {
     PlanePoint p{0.5 * lower_.x + 0.5 * upper_.x, 0.5 * lower_.y + 0.5 * upper_.y};
@@ -49,8 +47,7 @@ class CornerSearch {
     double y;
   };
   Linear linear(const CellFace& face, const PlanePoint& p) const {
-    const Jet jet =
-        looks_.solid().value(face, jets_of(known_point(looks_.grid().in_space(p))));
+    const Jet jet = looks_.solid().value(face, jets_of(known_point(looks_.grid().in_space(p))));
     const auto middle = [](const Interval& i) { return 0.5 * i.lo + 0.5 * i.hi; };
     return {middle(jet.value), middle(jet.slope[looks_.grid().axis(0)]),
             middle(jet.slope[looks_.grid().axis(1)])};
@@ -98,8 +95,7 @@ bool link_graph(const OutlineLooks& looks, const CellFace& face, std::size_t num
                      return is_over_first ? a.point.x < b.point.x : a.point.y < b.point.y;
                    });
   for (std::size_t k = 0; k < crossings.size(); k += 2) {
-    const std::optional<CellLink> link =
-        link_of(crossings[k], crossings[k + 1], number, number);
+    const std::optional<CellLink> link = link_of(crossings[k], crossings[k + 1], number, number);
     if (!link) return false;
     links.push_back(*link);
   }

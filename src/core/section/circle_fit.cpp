@@ -124,8 +124,8 @@ std::optional<FittedArc> fit_arc(std::span<const OutlinePoint> points,
   const double chord = distance_between(from, to);
   if (!(chord > 0)) return {};
   for (const std::size_t quarters : {2U, 1U, 3U}) {
-    const std::size_t between = std::clamp<std::size_t>(points.size() * quarters / 4, 1,
-                                                        points.size() - 2);
+    const std::size_t between =
+        std::clamp<std::size_t>(points.size() * quarters / 4, 1, points.size() - 2);
     const std::optional<Circle> circle = circle_through(from, points[between].place, to);
     if (!circle || circle->radius > most_radius * chord) continue;
     double angle = 0;
@@ -152,9 +152,9 @@ std::optional<FittedContour> fit_circle(std::span<const OutlinePoint> points,
   if (!off || std::abs(std::abs(angle) - full_turn) > 0.01) return {};
   const double bulge = angle > 0 ? 1 : -1;
   const auto [center, radius] = *circle;
-  return FittedContour{.contour = {{center.x + radius, center.y, bulge},
-                                   {center.x - radius, center.y, bulge}},
-                       .off = *off};
+  return FittedContour{
+      .contour = {{center.x + radius, center.y, bulge}, {center.x - radius, center.y, bulge}},
+      .off = *off};
 }
 
 }  // namespace crt::core

@@ -23,8 +23,7 @@ double ContourPiece::angle() const {
 PlanePoint ContourPiece::at(double share) const {
   if (share <= 0) return from;
   if (share >= 1) return to;
-  if (!is_arc())
-    return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+  if (!is_arc()) return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
   const PlanePoint middle = center();
   const double turn = share * angle();
   const double sine = elementary::sin(turn);

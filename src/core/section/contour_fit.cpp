@@ -177,9 +177,8 @@ class ContourFit {
     std::size_t corner = 0;
     for (std::size_t first = 0; first < points_.size();) {
       if (corner <= first) corner = next_corner(first);
-      const std::size_t last = farthest(first + 1, corner, [&](std::size_t end) {
-        return fit_exactly(first, end).has_value();
-      });
+      const std::size_t last = farthest(
+          first + 1, corner, [&](std::size_t end) { return fit_exactly(first, end).has_value(); });
       segments_.push_back({first, last, fit_exactly(first, last).value_or(FittedArc{})});
       first = last;
     }
@@ -245,12 +244,11 @@ class ContourFit {
       for (std::size_t j = i; j <= last; ++j) are_sure = are_sure && segments_[j].is_sure();
       // Lines and arcs that surely are some stay, unless several are spared.
       if (last - i < (are_sure ? 2U : 1U)) last = i;
-      const FittedArc arc =
-          last == i ? segments_[i].arc : fit_to(last).value_or(segments_[i].arc);
-      pieces_.push_back({.piece = {at(segments_[i].first).place, at(segments_[last].last).place,
-                                   arc.bulge},
-                         .is_sure = last == i && segments_[i].is_sure(),
-                         .begins_at_corner = is_corner(segments_[i].first)});
+      const FittedArc arc = last == i ? segments_[i].arc : fit_to(last).value_or(segments_[i].arc);
+      pieces_.push_back(
+          {.piece = {at(segments_[i].first).place, at(segments_[last].last).place, arc.bulge},
+           .is_sure = last == i && segments_[i].is_sure(),
+           .begins_at_corner = is_corner(segments_[i].first)});
       off_of_pieces_ = std::max(off_of_pieces_, arc.off);
       i = last + 1;
     }

@@ -113,8 +113,7 @@ double tidy_joints(std::vector<FittedPiece>& pieces, double exact, double tolera
     if (!last.is_sure || !next.is_sure || next.begins_at_corner) continue;
     const PlanePoint& end = next.piece.from;
     const double reach = short_share * std::min(last.piece.chord(), next.piece.chord());
-    const auto place =
-        touching_point(last.piece, next.piece, {end, end, 0}, reach, 4 * exact);
+    const auto place = touching_point(last.piece, next.piece, {end, end, 0}, reach, 4 * exact);
     if (!place) continue;
     // Between the end and the joint, the one piece stands for the other. The chord of either is
     // within its sagitta, and so within that of the other.

@@ -18,18 +18,22 @@ namespace {
 
 /// A DrawingUnit is what files say of a unit.
 struct DrawingUnit {
-  const char* css;         ///< the unit that SVG has for lengths
-  double in_css;           ///< how many of those it is
+  const char* css;  ///< the unit that SVG has for lengths
+  double in_css;    ///< how many of those it is
   double millimetres;
-  int insunits;            ///< of DXF
+  int insunits;  ///< of DXF
 };
 
 DrawingUnit drawing_unit(Unit unit) {
   switch (unit) {
-    case Unit::m: return {"mm", 1000, 1000, 6};
-    case Unit::cm: return {"cm", 1, 10, 5};
-    case Unit::mm: return {"mm", 1, 1, 4};
-    case Unit::in: return {"in", 1, 25.4, 1};
+    case Unit::m:
+      return {"mm", 1000, 1000, 6};
+    case Unit::cm:
+      return {"cm", 1, 10, 5};
+    case Unit::mm:
+      return {"mm", 1, 1, 4};
+    case Unit::in:
+      return {"in", 1, 25.4, 1};
   }
   throw Error(ErrorCode::invalid_argument, "there is no such unit", "unit");
 }
@@ -61,8 +65,7 @@ double downwards(double y) {
 }
 
 std::string path_of(const Contour& contour) {
-  std::string text =
-      text::format("M{} {}", contour.front().x, downwards(contour.front().y));
+  std::string text = text::format("M{} {}", contour.front().x, downwards(contour.front().y));
   for (std::size_t i = 0; i < contour.size(); ++i) {
     const ContourPiece piece = piece_of(contour, i);
     const double x = piece.to.x;
@@ -173,12 +176,11 @@ std::string section_svg(const Section& section, const SectionDrawing& drawing) {
       core::downwards(section.upper[1]) - stroke, width, height);
   const std::vector<core::HatchLine> hatch = core::hatch_lines(section, drawing);
   if (!hatch.empty()) {
-    text += text::format("<path fill=\"none\" stroke=\"black\" stroke-width=\"{}\" d=\"",
-                         0.5 * stroke);
+    text +=
+        text::format("<path fill=\"none\" stroke=\"black\" stroke-width=\"{}\" d=\"", 0.5 * stroke);
     for (const core::HatchLine& line : hatch) {
       text += text::format("{}M{} {} L{} {}", &line == hatch.data() ? "" : "\n", line.from.x,
-                           core::downwards(line.from.y), line.to.x,
-                           core::downwards(line.to.y));
+                           core::downwards(line.from.y), line.to.x, core::downwards(line.to.y));
     }
     text += "\"/>\n";
   }

@@ -59,8 +59,7 @@ void add_parts(const ContourPiece& piece, std::vector<MonotonePart>& parts) {
   const double radius = piece.radius();
   std::vector<Turned> places = {from};
   const double angle = piece.angle();
-  const double begin =
-      elementary::atan2(from.along - center.along, from.across - center.across);
+  const double begin = elementary::atan2(from.along - center.along, from.across - center.across);
   std::vector<double> shares = {0};
   const int step = angle > 0 ? 1 : -1;
   for (int k = -4 * step; k != 5 * step; k += step) {
@@ -119,8 +118,7 @@ std::vector<HatchLine> hatching(std::span<const Contour> contours, double distan
     const double across = (first + static_cast<double>(i)) * distance;
     for (std::size_t k = 0; k + 1 < line.size(); k += 2) {
       if (!(line[k] < line[k + 1])) continue;
-      lines.push_back(
-          {turned_back({across, line[k]}), turned_back({across, line[k + 1]})});
+      lines.push_back({turned_back({across, line[k]}), turned_back({across, line[k + 1]})});
     }
   }
   return lines;

@@ -191,10 +191,8 @@ class OutlineSearch {
                           .cell = place.cell,
                           .face = link.first_face});
         if (has_corner) {
-          pieces.push_back({.from = link.corner,
-                            .to = link.end,
-                            .cell = place.cell,
-                            .face = link.last_face});
+          pieces.push_back(
+              {.from = link.corner, .to = link.end, .cell = place.cell, .face = link.last_face});
         }
         crossing = link.to;
       }

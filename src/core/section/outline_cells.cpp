@@ -16,8 +16,8 @@ bool are_apart(const CellFace& a, const CellFace& b) {
   if (!(squared > 0)) return false;
   const double ratio = glm::dot(a.slope, b.slope) / squared;
   const Vec3 rest = a.slope - ratio * b.slope;
-  const double off = std::abs(rest.x) + std::abs(rest.y) + std::abs(rest.z) + a.error +
-                     std::abs(ratio) * b.error;
+  const double off =
+      std::abs(rest.x) + std::abs(rest.y) + std::abs(rest.z) + a.error + std::abs(ratio) * b.error;
   const double size = std::abs(a.value) + std::abs(ratio * b.value) + off;
   return std::abs(a.value - ratio * b.value) > off + 0x1p-48 * size;
 }

@@ -52,8 +52,7 @@ class EdgeSearch {
   void search(const End& from, const End& to) {
     const double middle = 0.5 * from.place + 0.5 * to.place;
     const bool is_tiny = !(middle > from.place && middle < to.place) ||
-                         to.place - from.place <= tiny_ ||
-                         looks_taken_ >= most_looks;
+                         to.place - from.place <= tiny_ || looks_taken_ >= most_looks;
     const std::size_t axis = looks_.grid().axis(edge_.along);
     if (!is_tiny) {
       const CellLook look =
@@ -115,14 +114,13 @@ void OutlineEdges::find_vertices(std::span<const OutlineCell> cells, const Worke
   for_ranges(vertices.size(), edges_of_task, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Vertex& vertex = vertices[i];
-      const auto known = std::lower_bound(
-          vertices_.begin(), vertices_.end(), vertex.point,
-          [](const Vertex& a, const GridPoint& point) { return a.point < point; });
+      const auto known =
+          std::lower_bound(vertices_.begin(), vertices_.end(), vertex.point,
+                           [](const Vertex& a, const GridPoint& point) { return a.point < point; });
       if (known != vertices_.end() && known->point == vertex.point) {
         vertex.is_inside = known->is_inside;
       } else {
-        vertex.is_inside =
-            is_in_solid(looks_, cells[vertex.cell], looks_.grid().at(vertex.point));
+        vertex.is_inside = is_in_solid(looks_, cells[vertex.cell], looks_.grid().at(vertex.point));
       }
     }
   });
@@ -151,13 +149,12 @@ void OutlineEdges::list_edges(std::span<const OutlineCell> cells) {
       for (; begin < to; ++next) {
         const std::int64_t place = place_of(*next);
         if (place <= begin) continue;
-        edges_.push_back(
-            {.along = along,
-             .line = line,
-             .from = begin,
-             .to = place,
-             .cell = cell,
-             .is_precise = cells[cell].is_simple});
+        edges_.push_back({.along = along,
+                          .line = line,
+                          .from = begin,
+                          .to = place,
+                          .cell = cell,
+                          .is_precise = cells[cell].is_simple});
         begin = place;
       }
     };
@@ -199,8 +196,7 @@ void OutlineEdges::find(std::span<const OutlineCell> cells, const Workers& worke
       OutlineEdge& edge = edges_[i];
       const auto earlier = std::lower_bound(known.begin(), known.end(), edge);
       const bool is_known = earlier != known.end() && !(edge < *earlier) &&
-                            earlier->to == edge.to &&
-                            (earlier->is_precise || !edge.is_precise);
+                            earlier->to == edge.to && (earlier->is_precise || !edge.is_precise);
       if (is_known) {
         edge.is_precise = earlier->is_precise;
         edge.crossings = std::move(earlier->crossings);

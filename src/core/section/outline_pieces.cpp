@@ -52,7 +52,8 @@ class PieceProver::Curve {
     other_ = 1 - over_;
   }
 
-  /// Makes the box of a part smaller, as slopes in the larger one allow, and finds the slopes in it.
+  /// Makes the box of a part smaller, as slopes in the larger one allow, and finds the slopes in
+  /// it.
   void narrow(Part& part) const {
     const AxisPair from = coordinates(part.from);
     const AxisPair to = coordinates(part.to);
@@ -96,9 +97,9 @@ class PieceProver::Curve {
     AxisPair between{};
     between[over_] = 0.5 * from[over_] + 0.5 * to[over_];
     const FaceOnLine line{looks_.solid(), grid(), face_, other_, between[over_]};
-    between[other_] = line.root_near(0.5 * from[other_] + 0.5 * to[other_], part.slopes[other_],
-                                     coordinates(part.lower)[other_],
-                                     coordinates(part.upper)[other_]);
+    between[other_] =
+        line.root_near(0.5 * from[other_] + 0.5 * to[other_], part.slopes[other_],
+                       coordinates(part.lower)[other_], coordinates(part.upper)[other_]);
     return plane_point(between);
   }
 
@@ -157,8 +158,7 @@ class PieceProver::Curve {
     return distance_between(lower, upper) * (1 + 0x1p-40);
   }
   std::array<Interval, 2> slopes_in(const PlanePoint& lower, const PlanePoint& upper) const {
-    const Jet jet =
-        looks_.solid().value(face_, jets_of(intervals_of(grid().box(lower, upper))));
+    const Jet jet = looks_.solid().value(face_, jets_of(intervals_of(grid().box(lower, upper))));
     return {jet.slope[axes_[0]], jet.slope[axes_[1]]};
   }
   /// Returns how much the function changes across a direction at least, or 0.
@@ -199,8 +199,7 @@ void PieceProver::prove(const OutlineCell& cell, const OutlinePiece& piece,
         .place = part.from, .surface = face.surface, .deviation = curve.off_chord(part)};
     const bool is_last = part.depth == most_halvings_ || !curve.can_be_halved(part);
     // What is straight is so to far less than what is wanted.
-    const double straight =
-        std::min(deviation_, 0x1p-20 * distance_between(part.from, part.to));
+    const double straight = std::min(deviation_, 0x1p-20 * distance_between(part.from, part.to));
     if (is_last || point.deviation <= std::max(straight, 8 * grid.rounding())) {
       points.push_back(point);
       continue;

@@ -1,10 +1,10 @@
 // A piece of the outline is an arc or a chord, with a proof of how far the true outline is from it.
 //
 // The arc goes through three points of a face's curve. Along it the face's function is a series
-// (patch_series.hpp), whose range says how much the function is, at most. How much it changes across
-// the chord follows from its slopes. So the curve, which like the arc is a graph over the chord, is
-// as near as the quotient says. A function without a series has chords, along which its slopes bound
-// it.
+// (patch_series.hpp), whose range says how much the function is, at most. How much it changes
+// across the chord follows from its slopes. So the curve, which like the arc is a graph over the
+// chord, is as near as the quotient says. A function without a series has chords, along which its
+// slopes bound it.
 #pragma once
 
 #include <cstdint>

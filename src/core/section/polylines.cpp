@@ -39,8 +39,7 @@ std::vector<SectionPolyline> section_polylines(const Section& section, double de
       const core::ContourPiece piece = core::piece_of(contour, i);
       const std::size_t count = core::chord_count(piece, wanted);
       for (std::size_t k = 0; k < count; ++k) {
-        const core::PlanePoint p =
-            piece.at(static_cast<double>(k) / static_cast<double>(count));
+        const core::PlanePoint p = piece.at(static_cast<double>(k) / static_cast<double>(count));
         line.push_back(section.frame.at(p.x, p.y));
       }
     }

@@ -11,8 +11,8 @@
 #include "core/section/circle_fit.hpp"
 #include "core/section/contour_arcs.hpp"
 #include "core/section/contour_fit.hpp"
-#include "core/section/outline_edges.hpp"
 #include "core/section/outline.hpp"
+#include "core/section/outline_edges.hpp"
 #include "core/section/section_plane.hpp"
 #include "core/tasks/parallel.hpp"
 #include "crt/error.hpp"
@@ -90,7 +90,8 @@ class SectionSearch {
     std::vector<const CellSolid*> met;
     for (const CellSolid& solid : solids_) {
       const Bounds& bounds = solid.bounds();
-      if (bounds.lower[plane_.across] <= plane_.place && bounds.upper[plane_.across] >= plane_.place)
+      if (bounds.lower[plane_.across] <= plane_.place &&
+          bounds.upper[plane_.across] >= plane_.place)
         met.push_back(&solid);
     }
     AllOutlines all;
