@@ -1165,7 +1165,7 @@ CRT_API crt_status crt_entity_contains(crt_entity* entity, const double* points,
 
 /** @defgroup sections Sections of solids
  * A section is what a plane cuts out of a solid: contours of lines and arcs that are within a
- * deviation of the true outline, which is proved from the solid's equations. docs/measure.md is a
+ * deviation of the true boundary, which is proved from the solid's equations. docs/measure.md is a
  * guide. Threads: Shared.
  *
  * A section's drawing is as somebody sees it who looks against the normal, with x to the right and
@@ -1193,11 +1193,11 @@ CRT_API crt_status crt_entity_contains(crt_entity* entity, const double* points,
  */
 CRT_API crt_status crt_section_create(crt_entity* entity, const double normal[3], double offset,
                                       double deviation, crt_section** out);
-/** Gives the area of a section, to 1e-6 of itself unless its outline is hard to tell. Since 1.1. */
+/** Gives the area of a section, to 1e-6 of itself where that can be known. Since 1.1. */
 CRT_API crt_status crt_section_area(const crt_section* section, crt_interval* out);
 /**
- * Gives the deviation that is proved: each point of the true outline is within it of the contours,
- * and each point of these within it of the outline. It is INFINITY if there may be a part of which
+ * Gives the deviation that is proved: each point of the true boundary is within it of the contours,
+ * and each point of these within it of the boundary. It is INFINITY if there may be a part of which
  * no contour is known, as where a plane merely touches a cylinder. Since 1.1.
  */
 CRT_API crt_status crt_section_deviation(const crt_section* section, double* out);

@@ -41,8 +41,8 @@ struct Section {
   /// The one that encloses most comes first. make_profile() takes them. Where two are nearer to
   /// each other than the deviation, they may cross.
   std::vector<Contour> contours{};
-  /// Proves how well they are known: each point of the true outline is within this distance of the
-  /// contours, and each of their points is within it of the true outline. It is what was asked for
+  /// Proves how well they are known: each point of the true boundary is within this distance of the
+  /// contours, and each of their points is within it of the true boundary. It is what was asked for
   /// or less, unless time or a limit ended the search. It is infinite if there may be a part of the
   /// section of which no contour is known, as where a plane merely touches a cylinder. Parts and
   /// holes that are smaller than 2^-36 times the box around the solid do not count.
@@ -58,9 +58,9 @@ struct Section {
 
 /// Cuts a solid by the plane {p : normal . p / |normal| = offset}, offset in scene units.
 ///
-/// The contours stay within `deviation` (scene units, above 0) of the true outline, and have as few
-/// lines and arcs as that allows. Straight edges and circles that are just that come out as such:
-/// a circle as two arcs. `relative_width` of the options is that of the area.
+/// The contours stay within `deviation` (scene units, above 0) of the true boundary, and have as
+/// few lines and arcs as that allows. Straight edges and circles that are just that come out as
+/// such: a circle as two arcs. `relative_width` of the options is that of the area.
 ///
 /// A plane that just coincides with a face of the solid cuts what is on the far side of the normal,
 /// as close to the plane as can be: that with normal z at the top of a box has the whole box, and
@@ -90,7 +90,7 @@ struct SectionDrawing {
   Unit unit = Unit::m;  ///< what a scene unit is
   /// Is the distance of hatching lines, which run at 45 degrees, in scene units. 0 draws none.
   double hatch = 0;
-  /// Is the width of the outline in SVG, in millimetres of the paper.
+  /// Is the width of the boundary in SVG, in millimetres of the paper.
   double line_width = 0.35;
 };
 

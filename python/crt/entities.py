@@ -188,7 +188,7 @@ class Entity(Handle):
         self, normal: Point, offset: SupportsFloat, deviation: SupportsFloat
     ) -> Section:
         """Returns what the plane of all p with normal . p = offset, for a normal of length 1, cuts
-        out of the solid: contours within `deviation` of the true outline."""
+        out of the solid: contours within `deviation` of the true boundary."""
         direction = _arguments.vector(normal, "section: normal")
         place = _arguments.number(offset, "section: offset")
         within = _arguments.number(deviation, "section: deviation")

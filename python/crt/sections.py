@@ -61,7 +61,7 @@ class Section(Handle):
 
     @property
     def deviation(self) -> float:
-        """Returns how far the contours and the true outline are from each other at most. It is
+        """Returns how far the contours and the true boundary are from each other at most. It is
         infinite if there may be a part of the section of which no contour is known."""
         found = ctypes.c_double()
         library.crt_section_deviation(self._handle, ctypes.byref(found))

@@ -193,7 +193,7 @@ std::size_t line_of(const std::string& text, const EntityPlace& place) {
 }
 
 /// Throws Error for a request that makes no sense.
-void check(const MeasureRequest& request) {
+void check_section_output(const MeasureRequest& request) {
   if (request.output.empty()) return;
   if (!request.section)
     throw Error(ErrorCode::invalid_argument, "-o writes a section: say which by --section");
@@ -202,7 +202,7 @@ void check(const MeasureRequest& request) {
 }
 
 void measure(const MeasureRequest& request, Reporter& reporter) {
-  check(request);
+  check_section_output(request);
   const InterruptScope interrupt;
   const auto go_on = [&] { return !interrupt.interrupted(); };
   ScriptOptions script_options = request.script;

@@ -12,7 +12,7 @@ namespace {
 /// Finds the place where the functions of two faces are 0, by Newton's iteration.
 class CornerSearch {
  public:
-  CornerSearch(const OutlineLooks& looks, const OutlineCell& cell)
+  CornerSearch(const BoundaryLooks& looks, const BoundaryCell& cell)
       : looks_(looks), lower_(looks.grid().at(cell.lower)), upper_(looks.grid().at(cell.upper)) {}
 
   std::optional<PlanePoint> find(const CellFace& first, const CellFace& second) const {
@@ -60,7 +60,7 @@ class CornerSearch {
             std::clamp(p.y, lower_.y - height, upper_.y + height)};
   }
 
-  const OutlineLooks& looks_;
+  const BoundaryLooks& looks_;
   PlanePoint lower_;
   PlanePoint upper_;
 };
@@ -86,7 +86,7 @@ std::optional<CellLink> link_of(const BorderCrossing& a, const BorderCrossing& b
 
 /// Links the crossings of a face, which is a graph over an axis. Along that it enters the cell and
 /// leaves it by turns.
-bool link_graph(const OutlineLooks& looks, const CellFace& face, std::size_t number,
+bool link_graph(const BoundaryLooks& looks, const CellFace& face, std::size_t number,
                 std::vector<BorderCrossing>& crossings, std::vector<CellLink>& links) {
   if (crossings.size() % 2 != 0) return false;
   const bool is_over_first = is_steep(face, looks.grid().axis(1));
@@ -104,14 +104,14 @@ bool link_graph(const OutlineLooks& looks, const CellFace& face, std::size_t num
 
 }  // namespace
 
-std::optional<std::vector<CellLink>> links_of(const OutlineLooks& looks, const OutlineCell& cell,
+std::optional<std::vector<CellLink>> links_of(const BoundaryLooks& looks, const BoundaryCell& cell,
                                               std::span<const BorderCrossing> border) {
   const std::vector<CellFace>& faces = cell.look.faces;
   std::vector<std::vector<BorderCrossing>> of_face(faces.size());
   for (const BorderCrossing& crossing : border) {
     auto face = std::ranges::find(faces, crossing.surface, &CellFace::surface);
     if (face == faces.end()) {
-      // What could not be told apart on an edge is of the only face.
+      // What could not be distinguished on an edge is of the only face.
       if (faces.size() != 1) return {};
       face = faces.begin();
     }

@@ -13,7 +13,7 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 /// More than this, and a whole circle is meant.
 constexpr double most_angle = 0.95 * full_turn;
-/// Flatter arcs than this are hardly told from lines.
+/// Flatter arcs than this hardly differ from lines.
 constexpr double most_radius = 1e6;
 
 struct Circle {
@@ -50,7 +50,7 @@ double angle_between(const PlanePoint& center, const PlanePoint& from, const Pla
 /// Follows points around a circle. Returns how far what is between them is from it at most, or
 /// nothing if they turn back or are farther than a tolerance. Gives the angle from the first to the
 /// last.
-std::optional<double> follow(const Circle& circle, std::span<const OutlinePoint> points,
+std::optional<double> follow(const Circle& circle, std::span<const BoundaryPoint> points,
                              bool is_closed, const FitTolerance& tolerance, double& angle) {
   double off = 0;
   angle = 0;
@@ -64,7 +64,7 @@ std::optional<double> follow(const Circle& circle, std::span<const OutlinePoint>
     off = std::max(off, away);
     const double last_away = std::exchange(before, away);
     if (i == 0) continue;
-    const OutlinePoint& last = points[i - 1];
+    const BoundaryPoint& last = points[i - 1];
     const double step = angle_between(circle.center, last.place, here);
     if (direction == 0) direction = step;
     if (!(step * direction >= 0) || std::abs(step) > 0.5 * std::numbers::pi) return {};
@@ -81,7 +81,7 @@ std::optional<double> follow(const Circle& circle, std::span<const OutlinePoint>
 }
 
 /// Returns how far points, and what is between them, are from the line from the first to the last.
-std::optional<double> distance_from_line(std::span<const OutlinePoint> points, double tolerance) {
+std::optional<double> distance_from_line(std::span<const BoundaryPoint> points, double tolerance) {
   const PlanePoint& from = points.front().place;
   const PlanePoint& to = points.back().place;
   const double length = distance_between(from, to);
@@ -114,7 +114,7 @@ std::optional<double> distance_from_line(std::span<const OutlinePoint> points, d
 
 }  // namespace
 
-std::optional<FittedArc> fit_arc(std::span<const OutlinePoint> points,
+std::optional<FittedArc> fit_arc(std::span<const BoundaryPoint> points,
                                  const FitTolerance& tolerance) {
   if (points.size() == 2) return FittedArc{.bulge = points.front().bulge, .off = 0};
   if (const std::optional<double> off = distance_from_line(points, tolerance.points))
@@ -139,7 +139,7 @@ std::optional<FittedArc> fit_arc(std::span<const OutlinePoint> points,
   return {};
 }
 
-std::optional<FittedContour> fit_circle(std::span<const OutlinePoint> points,
+std::optional<FittedContour> fit_circle(std::span<const BoundaryPoint> points,
                                         const FitTolerance& tolerance) {
   constexpr std::size_t fewest = 6;
   if (points.size() < fewest) return {};

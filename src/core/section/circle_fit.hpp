@@ -30,10 +30,10 @@ struct FittedArc {
 
 /// Fits a line or an arc to points and the arcs and chords between them, or returns nothing if none
 /// is near enough.
-std::optional<FittedArc> fit_arc(std::span<const OutlinePoint> points,
+std::optional<FittedArc> fit_arc(std::span<const BoundaryPoint> points,
                                  const FitTolerance& tolerance);
 /// Fits a whole circle to points that go around it once. It comes out as two half circles.
-std::optional<FittedContour> fit_circle(std::span<const OutlinePoint> points,
+std::optional<FittedContour> fit_circle(std::span<const BoundaryPoint> points,
                                         const FitTolerance& tolerance);
 
 }  // namespace crt::core

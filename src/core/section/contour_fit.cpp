@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "core/section/boundary_edges.hpp"
 #include "core/section/circle_fit.hpp"
 #include "core/section/contour_arcs.hpp"
 #include "core/section/contour_joints.hpp"
-#include "core/section/outline_edges.hpp"
 #include "crt/elementary.hpp"
 
 namespace crt::core {
@@ -19,7 +19,7 @@ constexpr double plain_turn = 0.2;
 
 class ContourFit {
  public:
-  ContourFit(const OutlineLoop& loop, double tolerance, double smallest)
+  ContourFit(const BoundaryLoop& loop, double tolerance, double smallest)
       : tolerance_(tolerance), exact_(std::min(tolerance, smallest)), smallest_(smallest) {
     drop_tiny(loop);
   }
@@ -66,19 +66,19 @@ class ContourFit {
   };
 
   /// Returns a point of the line. That after the last one is the first.
-  const OutlinePoint& at(std::size_t i) const { return points_[i % points_.size()]; }
+  const BoundaryPoint& at(std::size_t i) const { return points_[i % points_.size()]; }
   FittedContour finished(FittedContour result) const {
     result.off += off_;
     return result;
   }
 
   /// Leaves out the beginnings of pieces so short that only rounding made them.
-  void drop_tiny(const OutlineLoop& loop) {
+  void drop_tiny(const BoundaryLoop& loop) {
     points_.reserve(loop.size());
-    const auto is_tiny = [&](const OutlinePoint& a, const OutlinePoint& b) {
+    const auto is_tiny = [&](const BoundaryPoint& a, const BoundaryPoint& b) {
       return distance_between(a.place, b.place) <= 0.25 * smallest_;
     };
-    for (const OutlinePoint& point : loop) {
+    for (const BoundaryPoint& point : loop) {
       if (!points_.empty() && is_tiny(points_.back(), point)) {
         // The later piece begins where the tiny one did.
         points_.back().surface = point.surface;
@@ -96,8 +96,8 @@ class ContourFit {
 
   /// Returns whether there is a corner: another surface begins, and the line turns.
   bool is_corner(std::size_t i) const {
-    const OutlinePoint& before = at(i + points_.size() - 1);
-    const OutlinePoint& here = at(i);
+    const BoundaryPoint& before = at(i + points_.size() - 1);
+    const BoundaryPoint& here = at(i);
     if (before.surface == here.surface) return false;
     const ContourPiece in{before.place, here.place, before.bulge};
     const ContourPiece out{here.place, at(i + 1).place, here.bulge};
@@ -133,7 +133,7 @@ class ContourFit {
   /// Fits one line or arc to the points from one to another.
   std::optional<FittedArc> fit(std::size_t first, std::size_t last,
                                const FitTolerance& tolerance) const {
-    std::vector<OutlinePoint> points;
+    std::vector<BoundaryPoint> points;
     points.reserve(last - first + 1);
     for (std::size_t i = first; i <= last; ++i) points.push_back(at(i));
     return fit_arc(points, tolerance);
@@ -193,7 +193,7 @@ class ContourFit {
   bool add_joints() {
     bool is_any = false;
     bool is_last = false;
-    std::vector<OutlinePoint> points;
+    std::vector<BoundaryPoint> points;
     points.reserve(points_.size());
     double most_off = 0;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
@@ -259,14 +259,14 @@ class ContourFit {
   double smallest_;
   double off_ = 0;
   double off_of_pieces_ = 0;
-  std::vector<OutlinePoint> points_;
+  std::vector<BoundaryPoint> points_;
   std::vector<Segment> segments_;
   std::vector<FittedPiece> pieces_;
 };
 
 }  // namespace
 
-FittedContour fit_contour(const OutlineLoop& loop, double tolerance, double smallest) {
+FittedContour fit_contour(const BoundaryLoop& loop, double tolerance, double smallest) {
   // Something narrow may need more corners than the tolerance does to enclose anything.
   constexpr double less = 1.0 / 8;
   for (double wanted = tolerance;; wanted *= less) {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "core/section/outline.hpp"
+#include "core/section/boundary.hpp"
 #include "crt/primitives.hpp"
 
 namespace crt::core {
@@ -19,6 +19,6 @@ struct FittedContour {
 
 /// Fits lines and arcs to a closed line. They are within `tolerance` of it if they can be, where
 /// what is smaller than `smallest` does not count.
-FittedContour fit_contour(const OutlineLoop& loop, double tolerance, double smallest);
+FittedContour fit_contour(const BoundaryLoop& loop, double tolerance, double smallest);
 
 }  // namespace crt::core

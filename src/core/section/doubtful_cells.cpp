@@ -13,9 +13,9 @@ namespace {
 /// PointBuckets have the points of lines sorted into squares of a grid.
 class PointBuckets {
  public:
-  explicit PointBuckets(std::span<const OutlineLoop> loops) {
-    for (const OutlineLoop& loop : loops) {
-      for (const OutlinePoint& point : loop) {
+  explicit PointBuckets(std::span<const BoundaryLoop> loops) {
+    for (const BoundaryLoop& loop : loops) {
+      for (const BoundaryPoint& point : loop) {
         bounds_.include({point.place.x, point.place.y, 0});
         ++count_;
       }
@@ -23,13 +23,13 @@ class PointBuckets {
     const Vec3 size = bounds_.upper - bounds_.lower;
     width_ = std::max({size.x, size.y, std::numeric_limits<double>::min()}) / side;
     first_.assign(std::size_t{side} * side + 1, 0);
-    for (const OutlineLoop& loop : loops)
-      for (const OutlinePoint& point : loop) ++first_[square_of(point.place) + 1];
+    for (const BoundaryLoop& loop : loops)
+      for (const BoundaryPoint& point : loop) ++first_[square_of(point.place) + 1];
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     std::vector<std::size_t> next = first_;
     points_.resize(count_);
-    for (const OutlineLoop& loop : loops)
-      for (const OutlinePoint& point : loop) points_[next[square_of(point.place)]++] = point.place;
+    for (const BoundaryLoop& loop : loops)
+      for (const BoundaryPoint& point : loop) points_[next[square_of(point.place)]++] = point.place;
   }
 
   /// Returns the distance of a point from the nearest one.
@@ -77,13 +77,13 @@ class PointBuckets {
 
 }  // namespace
 
-double farthest_doubt(const OutlineLooks& looks, std::span<const OutlineCell> cells,
-                      std::span<const OutlineLoop> loops) {
+double farthest_doubt(const BoundaryLooks& looks, std::span<const BoundaryCell> cells,
+                      std::span<const BoundaryLoop> loops) {
   if (cells.empty()) return 0;
   if (loops.empty()) return infinity;
   const PointBuckets buckets(loops);
   double farthest = 0;
-  for (const OutlineCell& cell : cells) {
+  for (const BoundaryCell& cell : cells) {
     const PlanePoint lower = looks.grid().at(cell.lower);
     const PlanePoint upper = looks.grid().at(cell.upper);
     const PlanePoint middle{0.5 * lower.x + 0.5 * upper.x, 0.5 * lower.y + 0.5 * upper.y};

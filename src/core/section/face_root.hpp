@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "core/geometry/face_functions.hpp"
-#include "core/section/outline_cells.hpp"
+#include "core/section/boundary_cells.hpp"
 
 namespace crt::core {
 
 struct FaceOnLine {
   const CellSolid& solid;
-  const OutlineGrid& grid;
+  const BoundaryGrid& grid;
   const CellFace& face;
   std::size_t along = 0;  ///< 0 or 1: the axis that the line follows
   double across = 0;      ///< its coordinate along the other one

@@ -1,4 +1,4 @@
-// A section is put together from the outlines of all objects of a solid.
+// A section is put together from the boundaries of all objects of a solid.
 #include "crt/section.hpp"
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 
 #include "core/measure/entity_cells.hpp"
 #include "core/measure/measure_clock.hpp"
+#include "core/section/boundary.hpp"
+#include "core/section/boundary_edges.hpp"
 #include "core/section/circle_fit.hpp"
 #include "core/section/contour_arcs.hpp"
 #include "core/section/contour_fit.hpp"
-#include "core/section/outline.hpp"
-#include "core/section/outline_edges.hpp"
 #include "core/section/section_plane.hpp"
 #include "core/tasks/parallel.hpp"
 #include "crt/error.hpp"
@@ -23,28 +23,28 @@ namespace core {
 
 namespace {
 
-/// An AllOutlines has those of all objects.
-struct AllOutlines {
-  std::vector<Outline> outlines;
+/// An AllBoundaries has those of all objects.
+struct AllBoundaries {
+  std::vector<Boundary> boundaries;
   double deviation = 0;
   bool lies_in_plane = false;
   std::size_t left_cells = 0;
 };
 
 /// Returns how far points of a line are apart along an axis at most.
-double extent(const OutlineLoop& line) {
+double extent(const BoundaryLoop& line) {
   Bounds box;
-  for (const OutlinePoint& point : line) box.include({point.place.x, point.place.y, 0});
+  for (const BoundaryPoint& point : line) box.include({point.place.x, point.place.y, 0});
   return largest_component(box.upper - box.lower);
 }
 
 /// Returns how far points of a narrow line are from others, or infinity if there are none.
-double farthest_point(const OutlineLoop& line, const std::vector<OutlineLoop>& others) {
+double farthest_point(const BoundaryLoop& line, const std::vector<BoundaryLoop>& others) {
   double farthest = 0;
-  for (const OutlinePoint& point : line) {
+  for (const BoundaryPoint& point : line) {
     double nearest = infinity;
-    for (const OutlineLoop& other : others) {
-      for (const OutlinePoint& place : other)
+    for (const BoundaryLoop& other : others) {
+      for (const BoundaryPoint& place : other)
         nearest = std::min(nearest, distance_between(point.place, place.place));
     }
     const double reach = nearest + distance_between(point.place, line.front().place);
@@ -64,12 +64,12 @@ class SectionSearch {
   }
 
   Section run() {
-    AllOutlines all = outlines();
+    AllBoundaries all = boundaries();
     // Where a face lies in the plane, or an edge, that is moved by next to nothing.
     if (all.lies_in_plane || all.left_cells > most_left_cells) {
       const SectionPlane asked = plane_;
       plane_.move(-0x1p-32 * question_.size);
-      AllOutlines moved = outlines();
+      AllBoundaries moved = boundaries();
       const bool is_better = all.lies_in_plane || (moved.deviation <= all.deviation &&
                                                    moved.left_cells < all.left_cells / 2);
       if (is_better) {
@@ -86,7 +86,7 @@ class SectionSearch {
   static constexpr std::size_t most_left_cells = 64;
   static constexpr std::size_t objects_of_batch = 64;
 
-  AllOutlines outlines() {
+  AllBoundaries boundaries() {
     std::vector<const CellSolid*> met;
     for (const CellSolid& solid : solids_) {
       const Bounds& bounds = solid.bounds();
@@ -94,37 +94,37 @@ class SectionSearch {
           bounds.upper[plane_.across] >= plane_.place)
         met.push_back(&solid);
     }
-    AllOutlines all;
-    all.outlines.resize(met.size());
+    AllBoundaries all;
+    all.boundaries.resize(met.size());
     for (std::size_t first = 0; first < met.size(); first += objects_of_batch) {
       const std::size_t count = std::min(objects_of_batch, met.size() - first);
       const Workers inner = count == 1 ? clock_.workers() : Workers(1, clock_.workers().stop);
       for_ranges(count, 1, clock_.workers(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = first + begin; i < first + end; ++i)
-          all.outlines[i] = outline_of(*met[i], plane_, question_, clock_, inner);
+          all.boundaries[i] = boundary_of(*met[i], plane_, question_, clock_, inner);
       });
       std::uint64_t looks = 0;
-      for (std::size_t i = first; i < first + count; ++i) looks += all.outlines[i].looks;
+      for (std::size_t i = first; i < first + count; ++i) looks += all.boundaries[i].looks;
       clock_.count(looks);
     }
-    for (const Outline& outline : all.outlines) {
-      all.deviation = std::max(all.deviation, outline.deviation);
-      all.lies_in_plane = all.lies_in_plane || outline.lies_in_plane;
-      all.left_cells += outline.left_cells;
+    for (const Boundary& boundary : all.boundaries) {
+      all.deviation = std::max(all.deviation, boundary.deviation);
+      all.lies_in_plane = all.lies_in_plane || boundary.lies_in_plane;
+      all.left_cells += boundary.left_cells;
     }
     if (all.lies_in_plane) all.deviation = infinity;
     return all;
   }
 
   /// Returns a line in the coordinates of the drawing, with the solid on its left.
-  OutlineLoop in_drawing(OutlineLoop loop) const {
-    for (OutlinePoint& point : loop) point.place = plane_.to_drawing(point.place);
+  BoundaryLoop in_drawing(BoundaryLoop loop) const {
+    for (BoundaryPoint& point : loop) point.place = plane_.to_drawing(point.place);
     if (!plane_.is_mirrored()) return loop;
     // What was said of a chord at its beginning is said at its end now.
-    OutlineLoop turned(loop.size());
+    BoundaryLoop turned(loop.size());
     for (std::size_t i = 0; i < loop.size(); ++i) {
       turned[i] = loop[loop.size() - 1 - i];
-      const OutlinePoint& chord = loop[(2 * loop.size() - 2 - i) % loop.size()];
+      const BoundaryPoint& chord = loop[(2 * loop.size() - 2 - i) % loop.size()];
       // It is mirrored and turned back, so an arc keeps its bulge.
       turned[i].bulge = chord.bulge;
       turned[i].surface = chord.surface;
@@ -133,20 +133,20 @@ class SectionSearch {
     return turned;
   }
 
-  Section drawn(const AllOutlines& all) const {
+  Section drawn(const AllBoundaries& all) const {
     Section section{.frame = plane_.frame, .deviation = all.deviation};
     core::Interval area{0, 0};
     Bounds box;
     double off = 0;
     std::vector<std::pair<double, Contour>> contours;
-    for (const Outline& outline : all.outlines) {
-      area = area + outline.area;
-      std::vector<OutlineLoop> kept;
-      std::vector<OutlineLoop> narrow;
-      for (const OutlineLoop& line : outline.loops) {
-        OutlineLoop loop = in_drawing(line);
+    for (const Boundary& boundary : all.boundaries) {
+      area = area + boundary.area;
+      std::vector<BoundaryLoop> kept;
+      std::vector<BoundaryLoop> narrow;
+      for (const BoundaryLoop& line : boundary.loops) {
+        BoundaryLoop loop = in_drawing(line);
         double proved = 0;
-        for (const OutlinePoint& point : loop) {
+        for (const BoundaryPoint& point : loop) {
           if (point.surface != no_surface) proved = std::max(proved, point.deviation);
         }
         const double left = std::max(question_.deviation - proved, 0.25 * question_.deviation);
@@ -159,8 +159,8 @@ class SectionSearch {
         const double size = enclosed_area(fitted.contour);
         contours.emplace_back(size, std::move(fitted.contour));
       }
-      // What is so narrow that it encloses nothing is no contour, but the outline may be there.
-      for (const OutlineLoop& loop : narrow)
+      // What is so narrow that it encloses nothing is no contour, but the boundary may be there.
+      for (const BoundaryLoop& loop : narrow)
         section.deviation = std::max(section.deviation, farthest_point(loop, kept));
     }
     section.area = {std::max(0.0, area.lo), std::max(0.0, area.hi)};
@@ -182,7 +182,7 @@ class SectionSearch {
   std::span<const CellSolid> solids_;
   SectionPlane plane_;
   MeasureClock clock_;
-  OutlineQuestion question_;
+  BoundaryQuestion question_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "core/section/outline_edges.hpp"
+#include "core/section/boundary_edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t edges_of_task = 16;
 
 /// Returns whether a point is in the solid. What is on its surface is not.
-bool is_in_solid(const OutlineLooks& looks, const OutlineCell& cell, const PlanePoint& point) {
+bool is_in_solid(const BoundaryLooks& looks, const BoundaryCell& cell, const PlanePoint& point) {
   const Vec3 place = looks.grid().in_space(point);
   return looks.solid().look({{place, place}, cell.program}).kind == CellLook::Kind::full;
 }
@@ -22,11 +22,11 @@ bool is_in_solid(const OutlineLooks& looks, const OutlineCell& cell, const Plane
 /// Finds what crosses an edge by halving it.
 class EdgeSearch {
  public:
-  EdgeSearch(const OutlineLooks& looks, const OutlineCell& cell, OutlineEdge& edge)
+  EdgeSearch(const BoundaryLooks& looks, const BoundaryCell& cell, BoundaryEdge& edge)
       : looks_(looks), cell_(cell), edge_(edge) {}
 
   std::uint64_t run(bool from_inside, bool to_inside) {
-    const OutlineGrid& grid = looks_.grid();
+    const BoundaryGrid& grid = looks_.grid();
     const PlanePoint from = grid.at(edge_.begin());
     across_ = edge_.along == 0 ? from.y : from.x;
     const PlanePoint to = grid.at(edge_.end());
@@ -81,9 +81,9 @@ class EdgeSearch {
     edge_.crossings.push_back({.place = place, .enters = enters, .surface = surface});
   }
 
-  const OutlineLooks& looks_;
-  const OutlineCell& cell_;
-  OutlineEdge& edge_;
+  const BoundaryLooks& looks_;
+  const BoundaryCell& cell_;
+  BoundaryEdge& edge_;
   double across_ = 0;
   double tiny_ = 0;  ///< parts so small are not looked into
   std::uint64_t looks_taken_ = 0;
@@ -95,7 +95,7 @@ GridPoint swapped(const GridPoint& p) {
 
 }  // namespace
 
-void OutlineEdges::find_vertices(std::span<const OutlineCell> cells, const Workers& workers) {
+void BoundaryEdges::find_vertices(std::span<const BoundaryCell> cells, const Workers& workers) {
   std::vector<Vertex> vertices;
   vertices.reserve(4 * cells.size());
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
@@ -132,14 +132,14 @@ void OutlineEdges::find_vertices(std::span<const OutlineCell> cells, const Worke
   std::sort(by_lines_.begin(), by_lines_.end());
 }
 
-bool OutlineEdges::is_inside(const GridPoint& point) const {
+bool BoundaryEdges::is_inside(const GridPoint& point) const {
   const auto found =
       std::lower_bound(vertices_.begin(), vertices_.end(), point,
                        [](const Vertex& a, const GridPoint& p) { return a.point < p; });
   return found != vertices_.end() && found->point == point && found->is_inside;
 }
 
-void OutlineEdges::list_edges(std::span<const OutlineCell> cells) {
+void BoundaryEdges::list_edges(std::span<const BoundaryCell> cells) {
   edges_.clear();
   const auto add_side = [&](std::uint32_t cell, std::size_t along, std::int64_t line,
                             std::int64_t from, std::int64_t to) {
@@ -168,7 +168,7 @@ void OutlineEdges::list_edges(std::span<const OutlineCell> cells) {
     }
   };
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
-    const OutlineCell& cell = cells[i];
+    const BoundaryCell& cell = cells[i];
     for (std::size_t along = 0; along < 2; ++along) {
       for (const std::int64_t line : {cell.lower[1 - along], cell.upper[1 - along]})
         add_side(i, along, line, cell.lower[along], cell.upper[along]);
@@ -186,14 +186,14 @@ void OutlineEdges::list_edges(std::span<const OutlineCell> cells) {
   if (!edges_.empty()) edges_.resize(kept + 1);
 }
 
-void OutlineEdges::find(std::span<const OutlineCell> cells, const Workers& workers) {
+void BoundaryEdges::find(std::span<const BoundaryCell> cells, const Workers& workers) {
   find_vertices(cells, workers);
-  std::vector<OutlineEdge> known = std::move(edges_);
+  std::vector<BoundaryEdge> known = std::move(edges_);
   list_edges(cells);
   std::vector<std::uint64_t> looks(edges_.size());
   for_ranges(edges_.size(), edges_of_task, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      OutlineEdge& edge = edges_[i];
+      BoundaryEdge& edge = edges_[i];
       const auto earlier = std::lower_bound(known.begin(), known.end(), edge);
       const bool is_known = earlier != known.end() && !(edge < *earlier) &&
                             earlier->to == edge.to && (earlier->is_precise || !edge.is_precise);
@@ -214,10 +214,10 @@ void OutlineEdges::find(std::span<const OutlineCell> cells, const Workers& worke
   }
 }
 
-void OutlineEdges::add_side(const OutlineCell& cell, std::size_t along, std::int64_t line,
-                            bool backwards, std::vector<BorderCrossing>& list) const {
+void BoundaryEdges::add_side(const BoundaryCell& cell, std::size_t along, std::int64_t line,
+                             bool backwards, std::vector<BorderCrossing>& list) const {
   const auto begin = static_cast<std::ptrdiff_t>(list.size());
-  const OutlineEdge key{.along = along, .line = line, .from = cell.lower[along]};
+  const BoundaryEdge key{.along = along, .line = line, .from = cell.lower[along]};
   const double across = looks_.grid().at(1 - along, line);
   for (auto edge = std::lower_bound(edges_.begin(), edges_.end(), key);
        edge != edges_.end() && edge->along == along && edge->line == line &&
@@ -235,7 +235,7 @@ void OutlineEdges::add_side(const OutlineCell& cell, std::size_t along, std::int
   if (backwards) std::reverse(list.begin() + begin, list.end());
 }
 
-std::vector<BorderCrossing> OutlineEdges::around(const OutlineCell& cell) const {
+std::vector<BorderCrossing> BoundaryEdges::around(const BoundaryCell& cell) const {
   std::vector<BorderCrossing> list;
   add_side(cell, 0, cell.lower[1], false, list);
   add_side(cell, 1, cell.upper[0], false, list);
@@ -244,7 +244,7 @@ std::vector<BorderCrossing> OutlineEdges::around(const OutlineCell& cell) const 
   return list;
 }
 
-std::uint64_t OutlineEdges::take_looks() {
+std::uint64_t BoundaryEdges::take_looks() {
   return std::exchange(looks_taken_, 0);
 }
 

@@ -1,4 +1,4 @@
-#include "core/section/outline.hpp"
+#include "core/section/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,11 @@ namespace {
 
 constexpr std::size_t cells_of_task = 16;
 
-class OutlineSearch {
+class BoundarySearch {
  public:
-  OutlineSearch(const CellSolid& solid, const SectionPlane& plane, const OutlineQuestion& question,
-                MeasureClock& clock, const Workers& workers, int attempt)
+  BoundarySearch(const CellSolid& solid, const SectionPlane& plane,
+                 const BoundaryQuestion& question, MeasureClock& clock, const Workers& workers,
+                 int attempt)
       : grid_(plane, solid.bounds(), attempt),
         looks_(solid, grid_, plane.across, question.size),
         edges_(looks_),
@@ -31,27 +32,27 @@ class OutlineSearch {
 
   /// Returns false if a line is not closed, as it may be if a face lies along a side of a cell.
   bool run() {
-    OutlineCell root = looks_.root();
-    const OutlineLooks::Found found = look_at(root);
-    if (found == OutlineLooks::Found::in_plane) {
-      outline_.lies_in_plane = true;
+    BoundaryCell root = looks_.root();
+    const BoundaryLooks::Found found = look_at(root);
+    if (found == BoundaryLooks::Found::in_plane) {
+      boundary_.lies_in_plane = true;
       return true;
     }
-    if (found == OutlineLooks::Found::nothing) return true;
-    std::vector<OutlineCell> open;
+    if (found == BoundaryLooks::Found::nothing) return true;
+    std::vector<BoundaryCell> open;
     sort_in(std::move(root), open);
     for (;;) {
       divide(std::move(open));
-      if (outline_.lies_in_plane) return true;
+      if (boundary_.lies_in_plane) return true;
       open = link();
-      outline_.looks += edges_.take_looks();
+      boundary_.looks += edges_.take_looks();
       if (open.empty()) break;
     }
     const bool is_closed = trace();
     find_deviation();
     return is_closed;
   }
-  Outline take() { return std::move(outline_); }
+  Boundary take() { return std::move(boundary_); }
 
  private:
   static constexpr std::size_t most_cells = std::size_t{1} << 16;
@@ -62,17 +63,17 @@ class OutlineSearch {
   static constexpr std::size_t most_chords = std::size_t{1} << 18;
   static constexpr double least_size = 0x1p-40;
 
-  OutlineLooks::Found look_at(OutlineCell& cell) {
-    outline_.looks += cell.program->leaves.size();
+  BoundaryLooks::Found look_at(BoundaryCell& cell) {
+    boundary_.looks += cell.program->leaves.size();
     return looks_.look_at(cell);
   }
 
-  void sort_in(OutlineCell&& cell, std::vector<OutlineCell>& open) {
+  void sort_in(BoundaryCell&& cell, std::vector<BoundaryCell>& open) {
     (cell.is_simple ? simple_ : open).push_back(std::move(cell));
   }
 
   /// Returns whether a cell is to be divided further, of `count` that might be.
-  bool may_divide(const OutlineCell& cell, std::size_t count) {
+  bool may_divide(const BoundaryCell& cell, std::size_t count) {
     const double size = looks_.size(cell);
     if (simple_.size() + left_.size() + count > most_cells) return false;
     if (size > 0.25 * question_.deviation) return true;
@@ -80,40 +81,40 @@ class OutlineSearch {
   }
 
   /// Divides cells until they are simple, or left.
-  void divide(std::vector<OutlineCell>&& open) {
+  void divide(std::vector<BoundaryCell>&& open) {
     while (!open.empty()) {
       const bool is_over = clock_.is_over();
-      std::vector<OutlineCell> cells;
-      for (OutlineCell& cell : open)
+      std::vector<BoundaryCell> cells;
+      for (BoundaryCell& cell : open)
         (!is_over && may_divide(cell, open.size()) ? cells : left_).push_back(std::move(cell));
-      std::vector<std::vector<OutlineCell>> parts(cells.size());
+      std::vector<std::vector<BoundaryCell>> parts(cells.size());
       std::vector<std::uint64_t> looks(cells.size());
       std::vector<unsigned char> in_plane(cells.size());
       for_ranges(cells.size(), cells_of_task, workers_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-          for (OutlineCell& part : looks_.parts_of(cells[i])) {
+          for (BoundaryCell& part : looks_.parts_of(cells[i])) {
             looks[i] += part.program->leaves.size();
-            const OutlineLooks::Found found = looks_.look_at(part);
-            if (found == OutlineLooks::Found::in_plane) in_plane[i] = 1;
-            if (found == OutlineLooks::Found::crossed) parts[i].push_back(std::move(part));
+            const BoundaryLooks::Found found = looks_.look_at(part);
+            if (found == BoundaryLooks::Found::in_plane) in_plane[i] = 1;
+            if (found == BoundaryLooks::Found::crossed) parts[i].push_back(std::move(part));
           }
         }
       });
-      for (const std::uint64_t count : looks) outline_.looks += count;
+      for (const std::uint64_t count : looks) boundary_.looks += count;
       if (std::ranges::count(in_plane, 1) > 0) {
-        outline_.lies_in_plane = true;
+        boundary_.lies_in_plane = true;
         return;
       }
       open.clear();
-      for (std::vector<OutlineCell>& of_cell : parts)
-        for (OutlineCell& part : of_cell) sort_in(std::move(part), open);
+      for (std::vector<BoundaryCell>& of_cell : parts)
+        for (BoundaryCell& part : of_cell) sort_in(std::move(part), open);
     }
   }
 
   /// Links what crosses the borders of all cells. Returns simple cells where that failed, which are
   /// to be divided.
-  std::vector<OutlineCell> link() {
-    std::vector<OutlineCell> cells = simple_;
+  std::vector<BoundaryCell> link() {
+    std::vector<BoundaryCell> cells = simple_;
     cells.insert(cells.end(), left_.begin(), left_.end());
     edges_.find(cells, workers_);
     cells_linked_ += cells.size();
@@ -128,11 +129,11 @@ class OutlineSearch {
         links[i] = found ? std::move(*found) : straight_links(border);
       }
     });
-    std::vector<OutlineCell> again;
+    std::vector<BoundaryCell> again;
     const auto count = static_cast<std::size_t>(std::ranges::count(failed, 1));
     const bool is_over = clock_.is_over();
     if (count > 0) {
-      std::vector<OutlineCell> kept;
+      std::vector<BoundaryCell> kept;
       kept.reserve(simple_.size());
       for (std::size_t i = 0; i < simple_.size(); ++i) {
         if (failed[i] == 0) {
@@ -168,7 +169,7 @@ class OutlineSearch {
     }
     bool is_closed = true;
     std::vector<unsigned char> done(from.size());
-    std::vector<std::vector<OutlinePiece>> loops;
+    std::vector<std::vector<BoundaryPiece>> loops;
     // A line that is not closed begins where no other link ends.
     std::vector<unsigned char> is_end(from.size());
     for (const std::vector<CellLink>& links : links_)
@@ -179,7 +180,7 @@ class OutlineSearch {
     for (std::uint32_t i = 0; i < from.size(); ++i)
       if (from[i].cell != invalid_index && is_end[i] != 0) starts.push_back(i);
     for (const std::uint32_t start : starts) {
-      std::vector<OutlinePiece> pieces;
+      std::vector<BoundaryPiece> pieces;
       std::uint32_t crossing = start;
       while (from[crossing].cell != invalid_index && done[crossing] == 0) {
         done[crossing] = 1;
@@ -205,11 +206,11 @@ class OutlineSearch {
   }
 
   /// Returns the deviation that is wanted of chords, also for the sake of the area.
-  double wanted_deviation(const std::vector<std::vector<OutlinePiece>>& loops) const {
+  double wanted_deviation(const std::vector<std::vector<BoundaryPiece>>& loops) const {
     double area = 0;
     double length = 0;
-    for (const std::vector<OutlinePiece>& pieces : loops) {
-      for (const OutlinePiece& piece : pieces) {
+    for (const std::vector<BoundaryPiece>& pieces : loops) {
+      for (const BoundaryPiece& piece : pieces) {
         const PlanePoint& begin = pieces.front().from;
         area += 0.5 * ((piece.from.x - begin.x) * (piece.to.y - begin.y) -
                        (piece.from.y - begin.y) * (piece.to.x - begin.x));
@@ -221,13 +222,15 @@ class OutlineSearch {
     return std::max(std::min(0.25 * question_.deviation, for_area), 0x1p-42 * question_.size);
   }
 
-  void prove(const std::vector<std::vector<OutlinePiece>>& loops) {
-    std::vector<const OutlinePiece*> pieces;
-    for (const std::vector<OutlinePiece>& loop : loops)
-      for (const OutlinePiece& piece : loop) pieces.push_back(&piece);
-    std::vector<std::vector<OutlinePoint>> points(pieces.size());
-    const auto count = static_cast<std::size_t>(std::ranges::count_if(
-        pieces, [](const OutlinePiece* piece) { return piece->face != OutlineCell::no_face; }));
+  void prove(const std::vector<std::vector<BoundaryPiece>>& loops) {
+    std::vector<const BoundaryPiece*> pieces;
+    for (const std::vector<BoundaryPiece>& loop : loops)
+      for (const BoundaryPiece& piece : loop) pieces.push_back(&piece);
+    std::vector<std::vector<BoundaryPoint>> points(pieces.size());
+    const auto count =
+        static_cast<std::size_t>(std::ranges::count_if(pieces, [](const BoundaryPiece* piece) {
+          return piece->face != BoundaryCell::unknown_face;
+        }));
     int most_halvings = 4;
     while (most_halvings < 14 && count << (most_halvings + 1) <= most_chords) ++most_halvings;
     const PieceProver prover(looks_, wanted_deviation(loops), most_halvings);
@@ -236,10 +239,10 @@ class OutlineSearch {
         prover.prove(cells_[pieces[i]->cell], *pieces[i], points[i]);
     });
     std::size_t next = 0;
-    for (const std::vector<OutlinePiece>& loop : loops) {
-      OutlineLoop line;
+    for (const std::vector<BoundaryPiece>& loop : loops) {
+      BoundaryLoop line;
       for (std::size_t i = 0; i < loop.size(); ++i, ++next) {
-        outline_.looks += points[next].size();
+        boundary_.looks += points[next].size();
         line.insert(line.end(), points[next].begin(), points[next].end());
       }
       add_loop(std::move(line));
@@ -247,7 +250,7 @@ class OutlineSearch {
   }
 
   /// Adds the area within a line, and what its chords may be off.
-  void add_loop(OutlineLoop&& line) {
+  void add_loop(BoundaryLoop&& line) {
     const PlanePoint begin = line.front().place;
     const auto from_begin = [&](const PlanePoint& p) {
       return std::pair(Interval::of(p.x) - Interval::of(begin.x),
@@ -263,63 +266,64 @@ class OutlineSearch {
       area = area + segment_area(chord, line[i].bulge);
       const double length = chord.hi + grid_.rounding();
       if (line[i].surface != no_surface) off += length * line[i].deviation;
-      outline_.deviation = std::max(outline_.deviation, line[i].deviation);
+      boundary_.deviation = std::max(boundary_.deviation, line[i].deviation);
     }
     off *= 1 + 0x1p-30;
-    outline_.area = outline_.area + area + Interval{-off, off};
-    outline_.loops.push_back(std::move(line));
+    boundary_.area = boundary_.area + area + Interval{-off, off};
+    boundary_.loops.push_back(std::move(line));
   }
 
-  /// Finds how far from the outline what may be in cells that were left can be.
+  /// Finds how far from the boundary what may be in cells that were left can be.
   void find_deviation() {
-    std::vector<OutlineCell> doubtful;
+    std::vector<BoundaryCell> doubtful;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (cells_[i].is_simple) continue;
       const std::array<double, 2> size = grid_.size(cells_[i].lower, cells_[i].upper);
       const double area = size[0] * size[1] * (1 + 0x1p-40);
-      outline_.area = outline_.area + Interval{-area, area};
-      if (looks_.size(cells_[i]) > 0x1p-30 * grid_.size()) ++outline_.left_cells;
+      boundary_.area = boundary_.area + Interval{-area, area};
+      if (looks_.size(cells_[i]) > 0x1p-30 * grid_.size()) ++boundary_.left_cells;
       // What is so small is left out of all that is promised.
       if (looks_.size(cells_[i]) > 4 * least_size * grid_.size())
         doubtful.push_back(std::move(cells_[i]));
     }
-    outline_.deviation =
-        std::max(outline_.deviation, farthest_doubt(looks_, doubtful, outline_.loops));
-    outline_.area.lo = std::max(0.0, outline_.area.lo);
-    outline_.area.hi = std::max(0.0, outline_.area.hi);
+    boundary_.deviation =
+        std::max(boundary_.deviation, farthest_doubt(looks_, doubtful, boundary_.loops));
+    boundary_.area.lo = std::max(0.0, boundary_.area.lo);
+    boundary_.area.hi = std::max(0.0, boundary_.area.hi);
   }
 
-  OutlineGrid grid_;
-  OutlineLooks looks_;
-  OutlineEdges edges_;
-  const OutlineQuestion& question_;
+  BoundaryGrid grid_;
+  BoundaryLooks looks_;
+  BoundaryEdges edges_;
+  const BoundaryQuestion& question_;
   MeasureClock& clock_;
   Workers workers_;
-  std::vector<OutlineCell> simple_;
-  std::vector<OutlineCell> left_;
-  std::vector<OutlineCell> cells_;  ///< all of them, once they are linked
+  std::vector<BoundaryCell> simple_;
+  std::vector<BoundaryCell> left_;
+  std::vector<BoundaryCell> cells_;  ///< all of them, once they are linked
   std::vector<std::vector<CellLink>> links_;
   std::size_t cells_linked_ = 0;
-  Outline outline_;
+  Boundary boundary_;
 };
 
 }  // namespace
 
-Outline outline_of(const CellSolid& solid, const SectionPlane& plane,
-                   const OutlineQuestion& question, MeasureClock& clock, const Workers& workers) {
+Boundary boundary_of(const CellSolid& solid, const SectionPlane& plane,
+                     const BoundaryQuestion& question, MeasureClock& clock,
+                     const Workers& workers) {
   std::uint64_t looks = 0;
-  Outline outline;
+  Boundary boundary;
   constexpr int most_attempts = 3;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    OutlineSearch search(solid, plane, question, clock, workers, attempt);
+    BoundarySearch search(solid, plane, question, clock, workers, attempt);
     const bool is_closed = search.run();
-    outline = search.take();
-    looks += outline.looks;
-    outline.looks = looks;
-    if (is_closed) return outline;
+    boundary = search.take();
+    looks += boundary.looks;
+    boundary.looks = looks;
+    if (is_closed) return boundary;
   }
-  outline.deviation = infinity;
-  return outline;
+  boundary.deviation = infinity;
+  return boundary;
 }
 
 }  // namespace crt::core

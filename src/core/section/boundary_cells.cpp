@@ -1,4 +1,4 @@
-#include "core/section/outline_cells.hpp"
+#include "core/section/boundary_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ bool are_apart(const CellFace& a, const CellFace& b) {
 
 }  // namespace
 
-OutlineGrid::OutlineGrid(const SectionPlane& plane, const Bounds& bounds, int shift)
+BoundaryGrid::BoundaryGrid(const SectionPlane& plane, const Bounds& bounds, int shift)
     : axes_{static_cast<std::size_t>(plane.first_axis),
             static_cast<std::size_t>(plane.second_axis)},
       across_(plane.across),
@@ -43,28 +43,28 @@ OutlineGrid::OutlineGrid(const SectionPlane& plane, const Bounds& bounds, int sh
   rounding_ = 0x1p-50 * farthest;
 }
 
-std::array<double, 2> OutlineGrid::size(const GridPoint& lower, const GridPoint& upper) const {
+std::array<double, 2> BoundaryGrid::size(const GridPoint& lower, const GridPoint& upper) const {
   return {size_[0] * (0x1p-44 * static_cast<double>(upper[0] - lower[0])),
           size_[1] * (0x1p-44 * static_cast<double>(upper[1] - lower[1]))};
 }
 
-OutlineCell OutlineLooks::root() const {
+BoundaryCell BoundaryLooks::root() const {
   return {.lower = {0, 0},
-          .upper = {OutlineGrid::whole, OutlineGrid::whole},
+          .upper = {BoundaryGrid::whole, BoundaryGrid::whole},
           .program = solid_.cell({}).program};
 }
 
-double OutlineLooks::size(const OutlineCell& cell) const {
+double BoundaryLooks::size(const BoundaryCell& cell) const {
   const auto [x, y] = grid_.size(cell.lower, cell.upper);
   return std::max(x, y);
 }
 
-double OutlineLooks::diagonal(const OutlineCell& cell) const {
+double BoundaryLooks::diagonal(const BoundaryCell& cell) const {
   const auto [x, y] = grid_.size(cell.lower, cell.upper);
   return std::sqrt(x * x + y * y) * (1 + 0x1p-40);
 }
 
-bool OutlineLooks::lies_in_plane(const CellFace& face) const {
+bool BoundaryLooks::lies_in_plane(const CellFace& face) const {
   constexpr double tolerance = 0x1p-38;
   const Interval& across = face.slopes[across_];
   if (across.contains(0)) return false;
@@ -75,12 +75,12 @@ bool OutlineLooks::lies_in_plane(const CellFace& face) const {
   return std::abs(face.value) + face.error <= tolerance * steep * size_;
 }
 
-OutlineLooks::Found OutlineLooks::look_at(OutlineCell& cell) const {
+BoundaryLooks::Found BoundaryLooks::look_at(BoundaryCell& cell) const {
   cell.look = solid_.look({grid_.box(cell.lower, cell.upper), cell.program});
   if (!cell.look.is_open()) return Found::nothing;
   if (cell.look.program) cell.program = cell.look.program;
   cell.is_simple = false;
-  cell.first = cell.second = OutlineCell::no_face;
+  cell.first = cell.second = BoundaryCell::unknown_face;
   if (cell.look.kind != CellLook::Kind::crossed) return Found::crossed;
   for (const CellFace& face : cell.look.faces)
     if (lies_in_plane(face)) return Found::in_plane;
@@ -88,7 +88,7 @@ OutlineLooks::Found OutlineLooks::look_at(OutlineCell& cell) const {
   return Found::crossed;
 }
 
-void OutlineLooks::find_form(OutlineCell& cell) const {
+void BoundaryLooks::find_form(BoundaryCell& cell) const {
   const std::vector<CellFace>& faces = cell.look.faces;
   const std::size_t a = grid_.axis(0);
   const std::size_t b = grid_.axis(1);
@@ -99,7 +99,7 @@ void OutlineLooks::find_form(OutlineCell& cell) const {
       if (are_apart(faces[i], faces[j])) continue;
       const Interval turn =
           faces[i].slopes[a] * faces[j].slopes[b] - faces[i].slopes[b] * faces[j].slopes[a];
-      if (turn.contains(0) || cell.first != OutlineCell::no_face) return;
+      if (turn.contains(0) || cell.first != BoundaryCell::unknown_face) return;
       cell.first = i;
       cell.second = j;
     }
@@ -107,8 +107,8 @@ void OutlineLooks::find_form(OutlineCell& cell) const {
   cell.is_simple = true;
 }
 
-std::vector<OutlineCell> OutlineLooks::parts_of(const OutlineCell& cell) const {
-  std::vector<OutlineCell> parts = {
+std::vector<BoundaryCell> BoundaryLooks::parts_of(const BoundaryCell& cell) const {
+  std::vector<BoundaryCell> parts = {
       {.lower = cell.lower, .upper = cell.upper, .program = cell.program}};
   const std::array<double, 2> size = grid_.size(cell.lower, cell.upper);
   const double least = 0.75 * std::max(size[0], size[1]);
@@ -117,7 +117,7 @@ std::vector<OutlineCell> OutlineLooks::parts_of(const OutlineCell& cell) const {
     const std::int64_t middle = (cell.lower[i] + cell.upper[i]) / 2;
     const std::size_t count = parts.size();
     for (std::size_t part = 0; part < count; ++part) {
-      OutlineCell other = parts[part];
+      BoundaryCell other = parts[part];
       parts[part].upper[i] = middle;
       other.lower[i] = middle;
       parts.push_back(std::move(other));

@@ -14,16 +14,16 @@
 
 namespace crt::core {
 
-/// A GridPoint has coordinates along the two axes of a plane, from 0 to OutlineGrid::whole.
+/// A GridPoint has coordinates along the two axes of a plane, from 0 to BoundaryGrid::whole.
 using GridPoint = std::array<std::int64_t, 2>;
 
-/// An OutlineGrid says where the points of a grid are. It covers a rectangle of a plane.
-class OutlineGrid {
+/// An BoundaryGrid says where the points of a grid are. It covers a rectangle of a plane.
+class BoundaryGrid {
  public:
   static constexpr std::int64_t whole = std::int64_t{1} << 44;
 
   /// `shift` is the number of an attempt: grids of other numbers have other points.
-  OutlineGrid(const SectionPlane& plane, const Bounds& bounds, int shift);
+  BoundaryGrid(const SectionPlane& plane, const Bounds& bounds, int shift);
 
   std::size_t axis(std::size_t i) const { return axes_[i]; }
   double at(std::size_t i, std::int64_t place) const {
@@ -62,48 +62,48 @@ class OutlineGrid {
   double rounding_ = 0;
 };
 
-/// An OutlineCell is a part of the plane with what crosses it.
-struct OutlineCell {
+/// An BoundaryCell is a part of the plane with what crosses it.
+struct BoundaryCell {
   GridPoint lower{};
   GridPoint upper{};
   std::shared_ptr<const OpenProgram> program{};
   CellLook look{};
   /// Each face is a graph over one axis, and no two meet but `first` and `second` in one corner at
-  /// most, if these are not no_face.
+  /// most, if these are not unknown_face.
   bool is_simple = false;
-  static constexpr std::size_t no_face = ~std::size_t{0};
-  std::size_t first = no_face;
-  std::size_t second = no_face;
+  static constexpr std::size_t unknown_face = ~std::size_t{0};
+  std::size_t first = unknown_face;
+  std::size_t second = unknown_face;
 };
 
-/// OutlineLooks look at the cells of one solid.
-class OutlineLooks {
+/// BoundaryLooks look at the cells of one solid.
+class BoundaryLooks {
  public:
-  OutlineLooks(const CellSolid& solid, const OutlineGrid& grid, int across, double size)
+  BoundaryLooks(const CellSolid& solid, const BoundaryGrid& grid, int across, double size)
       : solid_(solid), grid_(grid), across_(static_cast<std::size_t>(across)), size_(size) {}
 
   const CellSolid& solid() const { return solid_; }
-  const OutlineGrid& grid() const { return grid_; }
-  OutlineCell root() const;
+  const BoundaryGrid& grid() const { return grid_; }
+  BoundaryCell root() const;
   enum class Found : std::uint8_t {
     nothing,   ///< nothing crosses the cell
     crossed,   ///< something may
     in_plane,  ///< a face lies in the plane
   };
   /// Finds out what crosses a cell.
-  Found look_at(OutlineCell& cell) const;
+  Found look_at(BoundaryCell& cell) const;
   /// Returns the parts of a cell, or nothing if it cannot be divided.
-  std::vector<OutlineCell> parts_of(const OutlineCell& cell) const;
+  std::vector<BoundaryCell> parts_of(const BoundaryCell& cell) const;
   /// Returns the longest side of a cell.
-  double size(const OutlineCell& cell) const;
-  double diagonal(const OutlineCell& cell) const;
+  double size(const BoundaryCell& cell) const;
+  double diagonal(const BoundaryCell& cell) const;
 
  private:
   bool lies_in_plane(const CellFace& face) const;
-  void find_form(OutlineCell& cell) const;
+  void find_form(BoundaryCell& cell) const;
 
   const CellSolid& solid_;
-  const OutlineGrid& grid_;
+  const BoundaryGrid& grid_;
   std::size_t across_;
   double size_;
 };

@@ -1,13 +1,13 @@
-#include "core/section/outline_pieces.hpp"
+#include "core/section/boundary_pieces.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/section/arc_series.hpp"
+#include "core/section/boundary_edges.hpp"
 #include "core/section/circle_fit.hpp"
 #include "core/section/face_root.hpp"
-#include "core/section/outline_edges.hpp"
 
 namespace crt::core {
 
@@ -38,7 +38,7 @@ struct PieceProver::Part {
 /// A Curve is that of one face in a cell: a graph over one axis, or over both.
 class PieceProver::Curve {
  public:
-  Curve(const OutlineLooks& looks, const CellFace& face) : looks_(looks), face_(face) {
+  Curve(const BoundaryLooks& looks, const CellFace& face) : looks_(looks), face_(face) {
     axes_ = {grid().axis(0), grid().axis(1)};
   }
 
@@ -153,7 +153,7 @@ class PieceProver::Curve {
           y((part.to.y - part.from.y) / length) {}
   };
 
-  const OutlineGrid& grid() const { return looks_.grid(); }
+  const BoundaryGrid& grid() const { return looks_.grid(); }
   static double diagonal(const PlanePoint& lower, const PlanePoint& upper) {
     return distance_between(lower, upper) * (1 + 0x1p-40);
   }
@@ -167,21 +167,21 @@ class PieceProver::Curve {
     return across.contains(0) ? 0 : std::min(std::abs(across.lo), std::abs(across.hi));
   }
 
-  const OutlineLooks& looks_;
+  const BoundaryLooks& looks_;
   const CellFace& face_;
   std::array<std::size_t, 2> axes_{};
   std::size_t over_ = 0;
   std::size_t other_ = 1;
 };
 
-void PieceProver::prove(const OutlineCell& cell, const OutlinePiece& piece,
-                        std::vector<OutlinePoint>& points) const {
-  if (piece.face == OutlineCell::no_face) {
+void PieceProver::prove(const BoundaryCell& cell, const BoundaryPiece& piece,
+                        std::vector<BoundaryPoint>& points) const {
+  if (piece.face == BoundaryCell::unknown_face) {
     points.push_back(
         {.place = piece.from, .surface = no_surface, .deviation = looks_.diagonal(cell)});
     return;
   }
-  const OutlineGrid& grid = looks_.grid();
+  const BoundaryGrid& grid = looks_.grid();
   const CellFace& face = cell.look.faces[piece.face];
   Curve curve(looks_, face);
   const bool has_series = looks_.solid().functions(face.leaf).has_series();
@@ -195,7 +195,7 @@ void PieceProver::prove(const OutlineCell& cell, const OutlinePiece& piece,
     open.pop_back();
     curve.choose_axis(part);
     curve.narrow(part);
-    OutlinePoint point{
+    BoundaryPoint point{
         .place = part.from, .surface = face.surface, .deviation = curve.off_chord(part)};
     const bool is_last = part.depth == most_halvings_ || !curve.can_be_halved(part);
     // What is straight is so to far less than what is wanted.
