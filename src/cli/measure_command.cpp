@@ -102,6 +102,8 @@ std::optional<std::array<Interval, 3>> common_centroid(const std::vector<Measure
   return sum;
 }
 
+}  // namespace
+
 Measured sum_of(const std::vector<Measured>& parts) {
   Measured sum;
   std::size_t count = 0;
@@ -116,6 +118,8 @@ Measured sum_of(const std::vector<Measured>& parts) {
   if (sum.volume) sum.centroid = common_centroid(parts, *sum.volume);
   return sum;
 }
+
+namespace {
 
 // ---- as text --------------------------------------------------------------------------------
 
@@ -173,12 +177,12 @@ std::string report(const Measured& found, const MeasureRequest& request, std::st
 
 // ---- the command ----------------------------------------------------------------------------
 
-void print_text(const MeasureRequest& request, std::string_view unit,
-                const std::vector<Measured>& parts, Reporter& reporter) {
+std::string text_of(const MeasureRequest& request, std::string_view unit,
+                    const std::vector<Measured>& parts) {
   std::string text;
   for (const Measured& part : parts) text += report(part, request, unit);
   if (parts.size() != 1) text += report(sum_of(parts), request, unit);
-  reporter.print(text, Reporter::IfClosed::fails);
+  return text;
 }
 
 /// Returns the line of the script that an entity is from, from 1 on.
@@ -186,6 +190,16 @@ std::size_t line_of(const std::string& text, const EntityPlace& place) {
   const std::size_t end = std::min<std::size_t>(place.origin.begin, text.size());
   return 1 + static_cast<std::size_t>(
                  std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+}
+
+/// Returns what the entities of a scene are called.
+std::vector<std::string> names_of(const ScriptResult& result, const std::string& script) {
+  std::vector<std::string> names;
+  names.reserve(result.scene->entities.size());
+  for (std::size_t place = 0; place < result.scene->entities.size(); ++place)
+    names.push_back(
+        fmt::format("entity {} (line {})", place, line_of(script, result.entity_places.at(place))));
+  return names;
 }
 
 void measure(const MeasureRequest& request, Reporter& reporter) {
@@ -196,25 +210,26 @@ void measure(const MeasureRequest& request, Reporter& reporter) {
   const ScriptSource script(request.scene, request.script.limits);
   const ScriptResult result = run_scene(script, script_options, false, reporter);
   if (!result.scene) return;
-  const EntityMeasuring measuring(request, {.relative_width = request.relative_width,
-                                            .seconds = request.seconds,
-                                            .threads = request.threads,
-                                            .go_on = go_on});
-  const std::string text = script.text();
+  const MeasureOptions options{.relative_width = request.relative_width,
+                               .seconds = request.seconds,
+                               .threads = request.threads,
+                               .go_on = go_on};
+  const EntityMeasuring measuring(request, options);
+  const std::vector<Entity>& entities = result.scene->entities;
+  const std::vector<std::string> names = names_of(result, script.text());
+  const MeasuredPairs pairs = measure_pairs(request, entities, names, options);
   std::vector<Measured> parts;
-  for (const Entity& entity : result.scene->entities) {
-    const std::size_t place = parts.size();
-    const std::string name =
-        fmt::format("entity {} (line {})", place, line_of(text, result.entity_places.at(place)));
-    parts.push_back(measuring.measure(entity, name));
-  }
+  for (std::size_t i = 0; i < entities.size() && request.asks_for_entities(); ++i)
+    parts.push_back(measuring.measure(entities[i], names[i]));
   const std::string_view unit = schema::script_name_of(result.scene->settings.unit);
+  std::string text;
   if (request.json) {
-    reporter.print(measures_json(request, script.name(), unit, parts, sum_of(parts)) + "\n",
-                   Reporter::IfClosed::fails);
+    text = measures_json(request, script.name(), unit, parts, pairs) + "\n";
   } else {
-    print_text(request, unit, parts, reporter);
+    if (request.asks_for_entities()) text = text_of(request, unit, parts);
+    text += pairs_text(pairs, names, unit);
   }
+  reporter.print(text, Reporter::IfClosed::fails);
 }
 
 }  // namespace

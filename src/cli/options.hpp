@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -127,8 +128,13 @@ struct MeasureRequest : CommonRequest {
   double seconds = std::numeric_limits<double>::infinity();  ///< that each number may take
   int threads = 0;
   bool json = false;
+  std::vector<std::pair<std::string, std::string>> distances;  ///< of entities, as they are called
+  bool interference = false;
 
   bool asks_for_some() const { return volume || area || bounds || mass; }
+  bool asks_for_pairs() const { return interference || !distances.empty(); }
+  /// Asks whether there is anything to say of single entities.
+  bool asks_for_entities() const { return asks_for_some() || !asks_for_pairs(); }
 };
 
 /// Says what is asked of a script's scene.
