@@ -1179,6 +1179,19 @@ CRT_API crt_status crt_entity_distance(crt_entity* entity, const double* points,
  */
 CRT_API crt_status crt_entity_clearance(crt_entity* a, crt_entity* b, double relative_width,
                                         crt_interval* distance, double on_a[3], double on_b[3]);
+/**
+ * Finds how thin the thinnest wall of a solid is: the shortest chord in it that is normal to the
+ * surface at one end and within 5 degrees of a normal at the other. So the edge of a box is no
+ * wall. The chord is as long as the upper end says. Both ends are INFINITY, and both points 0, if
+ * there is no wall. The lower end may be poor where curved walls of one thickness are large, and is
+ * 0 where a surface has a point without a normal, such as the apex of a cone: the search ends after
+ * many thousand pairs of boxes, which is some seconds. Since 1.1.
+ * @param relative_width  such as 0.01
+ * @param from            gets one end of the chord
+ * @param to              gets the other end
+ */
+CRT_API crt_status crt_entity_thickness(crt_entity* entity, double relative_width,
+                                        crt_interval* least, double from[3], double to[3]);
 
 /** Says how much two entities have in common. The layout is fixed for ever: 32 bytes. Since 1.1. */
 typedef struct crt_overlap {

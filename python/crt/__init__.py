@@ -25,7 +25,7 @@ from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Stat
 from .expressions import Expression
 from .images import Image
 from .jobs import Job
-from .measures import Clearance, Interval, Mass, Nearest, Overlap
+from .measures import Clearance, Interval, Mass, Nearest, Overlap, Thickness
 from .meshes import Mesh, MeshReport, load_mesh, mesh_report
 from .notebooks import Live
 from .primitives import (
@@ -160,6 +160,7 @@ __all__ = [
     "Sphere",
     "Status",
     "Superellipsoid",
+    "Thickness",
     "ToneMap",
     "Torus",
     "Triangle",

@@ -398,6 +398,14 @@ FUNCTIONS = {
         "double on_a[3]",
         "double on_b[3]",
     ),
+    "crt_entity_thickness": (
+        "crt_status",
+        "crt_entity* entity",
+        "double relative_width",
+        "crt_interval* least",
+        "double from[3]",
+        "double to[3]",
+    ),
     "crt_interference": (
         "crt_status",
         "crt_entity* const* entities",

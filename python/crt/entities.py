@@ -20,7 +20,7 @@ from ._arguments import Point
 from ._handles import Handle, Reference
 from ._library import create, library
 from ._materials import AnyMaterial, dressed
-from .measures import Clearance, Interval, Mass, Nearest, Overlap
+from .measures import Clearance, Interval, Mass, Nearest, Overlap, Thickness
 from .rays import points_of
 
 MOST_CALLS = 3  # that a representation shows
@@ -199,6 +199,13 @@ class Entity(Handle):
         """Returns how near this solid and another one are, with a pair of points so far apart."""
         _arguments.instance(other, Entity, "clearance: other")
         return measures.clearance(self._handle, other._handle, relative_width)
+
+    def thickness(self, relative_width: SupportsFloat = 1e-2) -> Thickness:
+        """Returns how thin the solid's thinnest wall is: the shortest chord in it that is normal to
+        the surface at one end and within 5 degrees of a normal at the other. So the edge of a box
+        is no wall. The upper end is the length of a chord that is there. The lower end may be poor
+        where curved walls of one thickness are large, and is 0 if there is an apex."""
+        return measures.thickness(self._handle, relative_width)
 
     @property
     def primitive_count(self) -> int:

@@ -80,6 +80,14 @@ class Clearance(NamedTuple):
         return self.distance.upper == 0
 
 
+class Thickness(NamedTuple):
+    """A Thickness is how thin the thinnest wall of a solid is, with the ends of a chord there."""
+
+    least: Interval  # infinite if there is no wall
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+
+
 class Overlap(NamedTuple):
     """An Overlap says how much two of several entities have in common."""
 
@@ -170,6 +178,16 @@ def clearance(a: Reference, b: Reference, relative_width: SupportsFloat) -> Clea
         a, b, width, ctypes.byref(distance), on_a.ctypes.data, on_b.ctypes.data
     )
     return Clearance(distance.plain(), on_a, on_b)
+
+
+def thickness(entity: Reference, relative_width: SupportsFloat) -> Thickness:
+    """Returns how thin a solid's thinnest wall is."""
+    width = _arguments.number(relative_width, "thickness: relative_width")
+    least, start, end = _Interval(), np.empty(3), np.empty(3)
+    library.crt_entity_thickness(
+        entity, width, ctypes.byref(least), start.ctypes.data, end.ctypes.data
+    )
+    return Thickness(least.plain(), start, end)
 
 
 def overlaps(

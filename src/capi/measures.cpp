@@ -62,7 +62,7 @@ double signed_distance_of(const NearestPoint& nearest) {
   return distance.lower < 0 ? 0 : distance.upper;  // a point on the surface has both signs
 }
 
-std::vector<Entity> to_entities(crt_entity* const* entities, std::size_t count) {
+std::vector<Entity> overlapping_entities(crt_entity* const* entities, std::size_t count) {
   if (count > 0) require(entities, "entities");
   std::vector<Entity> list;
   list.reserve(count);
@@ -174,11 +174,26 @@ crt_status crt_interference(crt_entity* const* entities, size_t entity_count, do
   return guarded([&] {
     require(count, "count");
     if (capacity > 0) require(overlaps, "overlaps");
-    const std::vector<crt::Entity> list = to_entities(entities, entity_count);
+    const std::vector<crt::Entity> list = overlapping_entities(entities, entity_count);
     const std::vector<crt::Overlap> found =
         crt::interference(list, to_measure_options(relative_width, seconds));
     for (std::size_t i = 0; i < std::min(found.size(), capacity); ++i)
       overlaps[i] = {found[i].first, found[i].second, c_interval(found[i].volume)};
     *count = found.size();
+  });
+}
+
+crt_status crt_entity_thickness(crt_entity* entity, double relative_width, crt_interval* least,
+                                double from[3], double to[3]) {
+  return guarded([&] {
+    require(entity, "entity");
+    require(least, "least");
+    require(from, "from");
+    require(to, "to");
+    const crt::Wall wall =
+        crt::least_wall(entity->value, {.measure = to_measure_options(relative_width, 0)});
+    *least = c_interval(wall.thickness);
+    copy_to(from, wall.from);
+    copy_to(to, wall.to);
   });
 }

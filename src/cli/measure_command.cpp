@@ -39,10 +39,12 @@ class EntityMeasuring {
                    .area = {},
                    .mass = {},
                    .centroid = {},
-                   .inertia = {}};
+                   .inertia = {},
+                   .wall = {}};
     if (all_ || request_.bounds) found.bounds = tight_bounding_box(entity, options_);
     try {
       measure_mass(entity, found);
+      if (request_.thickness) found.wall = least_wall(entity, wall_options());
     } catch (const Error& error) {
       if (error.code() != ErrorCode::invalid_argument) throw;
       found.fault = error.what();
@@ -51,6 +53,12 @@ class EntityMeasuring {
   }
 
  private:
+  WallOptions wall_options() const {
+    WallOptions walls{.measure = options_};
+    walls.measure.relative_width = request_.wall_width;
+    return walls;
+  }
+
   void measure_mass(const Entity& entity, Measured& found) const {
     if (all_ || request_.mass) {
       const MassProperties properties = mass_properties(entity, options_);
@@ -93,11 +101,14 @@ std::optional<std::array<Interval, 3>> common_centroid(const std::vector<Measure
                                                        const Interval& volume) {
   if (!(volume.lower > 0)) return {};
   std::array<Interval, 3> sum{};
+  bool is_known = false;
   for (const Measured& part : parts) {
     if (!part.volume || !part.centroid) continue;
+    is_known = true;
     for (std::size_t i = 0; i < 3; ++i)
       sum[i] = sum_of(sum[i], product_of(*part.volume, (*part.centroid)[i]));
   }
+  if (!is_known) return {};
   for (Interval& number : sum) number = quotient_of(number, volume);
   return sum;
 }
@@ -156,6 +167,16 @@ std::string inertia_text(const std::array<Interval, 6>& inertia) {
   return text;
 }
 
+std::string wall_text(const Wall& wall, std::string_view unit) {
+  if (std::isinf(wall.thickness.lower)) return "none: no two sides of it are parallel";
+  if (std::isinf(wall.thickness.upper))
+    return fmt::format("none is known, at least {} {}", end_text(wall.thickness.lower, 0, false),
+                       unit);
+  return fmt::format("{} {}, {}\n    from    {} {}\n    to      {} {}", number_text(wall.thickness),
+                     unit, bounds_text(wall.thickness), point_text(wall.from), unit,
+                     point_text(wall.to), unit);
+}
+
 std::string report(const Measured& found, const MeasureRequest& request, std::string_view unit) {
   std::string text = found.name + "\n";
   const auto add_line = [&](std::string_view what, const std::string& value) {
@@ -172,13 +193,14 @@ std::string report(const Measured& found, const MeasureRequest& request, std::st
   add_number("mass", found.mass, "");
   if (found.centroid) add_line("centroid", centroid_text(*found.centroid, unit));
   if (found.inertia) add_line("inertia", "about the centroid" + inertia_text(*found.inertia));
+  if (found.wall) add_line("thickness", wall_text(*found.wall, unit));
   return text;
 }
 
 // ---- the command ----------------------------------------------------------------------------
 
-std::string text_of(const MeasureRequest& request, std::string_view unit,
-                    const std::vector<Measured>& parts) {
+std::string report_of_all(const MeasureRequest& request, std::string_view unit,
+                          const std::vector<Measured>& parts) {
   std::string text;
   for (const Measured& part : parts) text += report(part, request, unit);
   if (parts.size() != 1) text += report(sum_of(parts), request, unit);
@@ -226,7 +248,7 @@ void measure(const MeasureRequest& request, Reporter& reporter) {
   if (request.json) {
     text = measures_json(request, script.name(), unit, parts, pairs) + "\n";
   } else {
-    if (request.asks_for_entities()) text = text_of(request, unit, parts);
+    if (request.asks_for_entities()) text = report_of_all(request, unit, parts);
     text += pairs_text(pairs, names, unit);
   }
   reporter.print(text, Reporter::IfClosed::fails);

@@ -30,6 +30,14 @@ Json json_of(const std::array<Interval, count>& numbers) {
   return list;
 }
 
+Json json_of(const Wall& wall) {
+  Json object = {{"least", json_of(wall.thickness)}};
+  if (!std::isfinite(wall.thickness.upper)) return object;
+  object["from"] = json_of(wall.from);
+  object["to"] = json_of(wall.to);
+  return object;
+}
+
 Json json_of(const Measured& found) {
   Json object = {{"name", found.name}};
   const auto add_member = [&](const char* name, const auto& value) {
@@ -42,6 +50,7 @@ Json json_of(const Measured& found) {
   add_member("mass", found.mass);
   add_member("centroid", found.centroid);
   add_member("inertia", found.inertia);
+  add_member("thickness", found.wall);
   return object;
 }
 

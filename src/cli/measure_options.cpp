@@ -13,8 +13,8 @@ CommandTable measure_table(MeasureRequest& request) {
       .footer = R"(Numbers are printed with as many digits as are sure, and with bounds that
 surely hold the truth. They are in the unit of the script's Settings, metres by default. Of what is
 no solid, or has no end, it says why it has no volume. Without any of --volume, --area, --bounds,
---mass, --distance and --interference it says all but the mass of each entity. docs/measure.md has
-more.
+--mass, --thickness, --distance and --interference it says volume, area, bounds and centroid of each
+entity. docs/measure.md has more.
 
 Examples:
   crt measure part.crt                            bounds, volume, area, centroid
@@ -32,6 +32,7 @@ Examples:
   add_flag("--area", request.area, "the area of the surface");
   add_flag("--bounds", request.bounds, "the box around it");
   add_flag("--mass", request.mass, "volume, mass, centroid, and the inertia about that");
+  add_flag("--thickness", request.thickness, "how thin the thinnest wall is, and where");
   rows.push_back({.names = "--density",
                   .type = "D",
                   .help = "the mass of a cubed scene unit (1), and asks for --mass",
@@ -60,6 +61,7 @@ Examples:
                     if (!parse_finite(text, request.relative_width) ||
                         !(request.relative_width > 0 && request.relative_width <= 1))
                       throw WrongValue("--relative-width", "a number above 0, at most 1", text);
+                    request.wall_width = request.relative_width;
                   }});
   rows.push_back({.names = "--seconds",
                   .type = "SECONDS",

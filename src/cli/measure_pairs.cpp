@@ -28,17 +28,6 @@ std::size_t place_of_entity(const std::string& text, std::span<const std::string
                           text, names.size()));
 }
 
-std::string point_text(const Vec3& point) {
-  constexpr double rounding = 1e-12;
-  const double size = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-  std::string text;
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool is_zero = std::abs(point[axis]) <= rounding * size;
-    text += fmt::format("{}{:.9g}", axis == 0 ? "(" : ", ", is_zero ? 0 : point[axis]);
-  }
-  return text + ")";
-}
-
 std::string distance_text(const Clearance& found, std::string_view unit) {
   if (found.overlap)
     return fmt::format("  overlap   both hold {} {}\n", point_text(found.on_a), unit);
@@ -62,6 +51,17 @@ std::string overlaps_text(const std::vector<Overlap>& overlaps, std::span<const 
 }
 
 }  // namespace
+
+std::string point_text(const Vec3& point) {
+  constexpr double rounding = 1e-12;
+  const double size = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_zero = std::abs(point[axis]) <= rounding * size;
+    text += fmt::format("{}{:.9g}", axis == 0 ? "(" : ", ", is_zero ? 0 : point[axis]);
+  }
+  return text + ")";
+}
 
 MeasuredPairs measure_pairs(const MeasureRequest& request, std::span<const Entity> entities,
                             std::span<const std::string> names, const MeasureOptions& options) {

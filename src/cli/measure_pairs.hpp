@@ -30,6 +30,9 @@ struct MeasuredPairs {
 MeasuredPairs measure_pairs(const MeasureRequest& request, std::span<const Entity> entities,
                             std::span<const std::string> names, const MeasureOptions& options);
 
+/// Returns a point with as many digits as say where it is.
+std::string point_text(const Vec3& point);
+
 /// Returns it as text, by the names of the entities.
 std::string pairs_text(const MeasuredPairs& pairs, std::span<const std::string> names,
                        std::string_view unit);

@@ -23,6 +23,7 @@ struct Measured {
   std::optional<Interval> mass;
   std::optional<std::array<Interval, 3>> centroid;
   std::optional<std::array<Interval, 6>> inertia;
+  std::optional<Wall> wall;
 };
 
 /// Says whether a box is that of nothing.

@@ -162,6 +162,10 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
        [&] {
          return crt_entity_clearance(ball.get(), ball.get(), 1, &mass.volume, corner, nullptr);
        }},
+      {"entity", [&] { return crt_entity_thickness(nullptr, 1, &mass.volume, corner, corner); }},
+      {"least", [&] { return crt_entity_thickness(ball.get(), 1, nullptr, corner, corner); }},
+      {"from", [&] { return crt_entity_thickness(ball.get(), 1, &mass.volume, nullptr, corner); }},
+      {"to", [&] { return crt_entity_thickness(ball.get(), 1, &mass.volume, corner, nullptr); }},
       {"entities", [&] { return crt_interference(nullptr, 1, 1, 0, nullptr, 0, &count); }},
       {"entities[0]", [&] { return crt_interference(nothing, 1, 1, 0, nullptr, 0, &count); }},
       {"overlaps", [&] { return crt_interference(nullptr, 0, 1, 0, nullptr, 1, &count); }},

@@ -269,3 +269,17 @@ TEST_CASE("pairs that overlap are found, however many there is room for") {
   CHECK(overlaps[1].second == 2);
   CHECK(holds(overlaps[1].volume, 1));
 }
+
+TEST_CASE("the thinnest wall of a plate is the plate's, with a chord across it") {
+  const EntityHandle plate = box({0, 0, 0}, {5, 0.5, 4});
+  crt_interval least;
+  double from[3];
+  double to[3];
+  REQUIRE(crt_entity_thickness(plate.get(), 0.01, &least, from, to) == CRT_OK);
+  CHECK(holds(least, 0.5));
+  CHECK(least.upper - least.lower <= 0.005);
+  CHECK(std::abs(to[1] - from[1]) == doctest::Approx(0.5));
+  CHECK(to[0] == doctest::Approx(from[0]));
+  CHECK(crt_entity_thickness(plate.get(), 0, &least, from, to) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("relative_width"));
+}

@@ -191,7 +191,8 @@ Scene {
   CHECK(!contains(apart.out, "volume"));
   const Outcome within = run_crt(folder, {"measure", "two.crt", "--distance", "0,2", "--volume"});
   CHECK(contains(within.out, "  overlap   both hold ("));
-  CHECK(contains(within.out, "  volume    1 mm3"));
+  CHECK(contains(within.out, "  volume    1.0"));
+  CHECK(!contains(within.out, "centroid"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "entities that overlap are listed with the volume they have in common") {
@@ -221,4 +222,18 @@ TEST_CASE_FIXTURE(Fixture, "a distance of what is not there, or has none, is ref
     CHECK(run.out.empty());
   }
   CHECK(contains(run_crt(folder, {"measure", "parts.crt", "--distance", "0,2"}).err, "solid"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "the thinnest wall is said with where it is") {
+  const Json json = measured({"parts.crt", "--thickness"});
+  const Json& plate = json["entities"].items[0]["thickness"];
+  CHECK(holds(plate["least"], 0.5));
+  CHECK(width(plate["least"]) <= 0.005);
+  CHECK(plate["to"].items.size() == 3);
+  CHECK(!json["entities"].items[0].has("volume"));
+  CHECK(contains(json["entities"].items[2]["fault"].string, "only a solid"));
+  const Outcome run = run_crt(folder, {"measure", "parts.crt", "--thickness"});
+  CHECK(contains(run.out, "  thickness 0.5"));
+  CHECK(contains(run.out, " mm, between "));
+  CHECK(contains(run.out, "    from    ("));
 }

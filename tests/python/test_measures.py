@@ -156,6 +156,24 @@ class Distances(unittest.TestCase):
             crt.interference([PLATE], seconds=-1)
 
 
+class Thicknesses(unittest.TestCase):
+    def test_the_wall_beside_a_bore_is_the_thinnest(self):
+        least, start, end = PLATE.thickness()
+        self.assertIn(0.5, least)
+        self.assertLess(least.width, 0.006)
+        np.testing.assert_allclose(np.linalg.norm(end - start), least.upper, rtol=1e-6)
+
+    def test_a_corner_has_no_wall(self):
+        corner = crt.Box((0, 0, 0), (1, 1, 1)) & crt.Plane((1, 1, 1), (0.3, 0.3, 0.3))
+        self.assertEqual(corner.thickness().least, (math.inf, math.inf))
+
+    def test_wrong_widths_are_refused(self):
+        with self.assertRaisesRegex(crt.Error, "relative_width"):
+            PLATE.thickness(2)
+        with self.assertRaisesRegex(TypeError, "thickness: relative_width"):
+            PLATE.thickness("thin")
+
+
 class Units(unittest.TestCase):
     def test_a_script_says_what_a_scene_unit_is(self):
         scene = crt.Scene.from_script('Settings { unit -> "mm" } Scene { }')

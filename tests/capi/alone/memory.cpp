@@ -226,6 +226,8 @@ TEST_CASE("measuring") {
   crt_interval clearance;
   check_every_failure(
       [&] { return crt_entity_clearance(part.get(), apart.get(), 1, &clearance, lower, upper); });
+  check_every_failure(
+      [&] { return crt_entity_thickness(apart.get(), 1, &clearance, lower, upper); });
   crt_entity* const both[2] = {a.get(), b.get()};
   std::size_t count = 0;
   check_every_failure([&] { return crt_interference(both, 2, 1, 0, nullptr, 0, &count); });
