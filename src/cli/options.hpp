@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -122,13 +123,20 @@ struct MeasureRequest : CommonRequest {
   bool area = false;
   bool bounds = false;
   bool mass = false;  ///< with it the centroid and the inertia
+  bool thickness = false;
   double density = 1;
   double relative_width = 1e-4;
+  double wall_width = 1e-2;  ///< the relative width of a thickness, which takes longer
   double seconds = std::numeric_limits<double>::infinity();  ///< that each number may take
   int threads = 0;
   bool json = false;
+  std::vector<std::pair<std::string, std::string>> distances;  ///< of entities, as they are called
+  bool interference = false;
 
-  bool asks_for_some() const { return volume || area || bounds || mass; }
+  bool asks_for_some() const { return volume || area || bounds || mass || thickness; }
+  bool asks_for_pairs() const { return interference || !distances.empty(); }
+  /// Asks whether there is anything to say of single entities.
+  bool asks_for_entities() const { return asks_for_some() || !asks_for_pairs(); }
 };
 
 /// Says what is asked of a script's scene.

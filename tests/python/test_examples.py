@@ -84,6 +84,8 @@ class Tutorial(unittest.TestCase):
         self.assertTrue(centroid.endswith("0.00, 0.59, 0.55"))
         share = tutorial_measure.share_inside(tutorial_scene.bracket(), 20_000)
         self.assertAlmostEqual(share, 5.58936 / 36, delta=0.01)
+        # The largest ball in a corner of the plates is a little more than half as thick as they.
+        self.assertTrue(0.1 < tutorial_measure.deepest(tutorial_scene.bracket(), 300) < 0.25)
 
     def test_a_render_is_watched_and_may_be_stopped(self):
         scene = small(tutorial_scene.bracket_scene())
