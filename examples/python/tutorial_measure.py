@@ -34,6 +34,14 @@ def draw_section(part: crt.Entity, file: str) -> crt.Section:
     return section
 
 
+def deepest(part: crt.Entity, count: int) -> float:
+    """Returns how far the deepest of some random points is below the part's surface."""
+    points = np.random.default_rng(2).uniform(*part.bounds, (count, 3))
+    depths = -part.distance(points).distance
+    return float(depths.max())
+
+
 if __name__ == "__main__":
     print("\n".join(report(bracket())))
     print("of its box it fills", round(share_inside(bracket(), 100_000), 2))
+    print("it holds a ball of radius", round(deepest(bracket(), 200), 2))

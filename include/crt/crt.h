@@ -1158,6 +1158,64 @@ CRT_API crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double
  */
 CRT_API crt_status crt_entity_contains(crt_entity* entity, const double* points, size_t stride,
                                        size_t count, int8_t* side);
+/**
+ * Finds the nearest points of a solid's surface, and how far away they are: below 0 for points in
+ * the solid. No distance is less than the true one. It is at most 1e-6 of itself more, unless
+ * surfaces are equally near over a wide range, as between a shaft and its bore, or merely touch:
+ * there the search ends after many thousand boxes. If a point is not finite, nothing is written,
+ * and the message names its index. A solid without points, or without an end, is refused. Since
+ * 1.1.
+ * @param points           each 3 numbers
+ * @param stride           bytes from one point to the next; 0 means one after the other
+ * @param signed_distance  gets `count` numbers
+ * @param nearest          gets `count` points of 3 numbers; NULL if they are not wanted
+ * @param nearest_stride   bytes from one of these to the next; 0 means one after the other
+ */
+CRT_API crt_status crt_entity_distance(crt_entity* entity, const double* points, size_t stride,
+                                       size_t count, double* signed_distance, double* nearest,
+                                       size_t nearest_stride);
+/**
+ * Finds how near two solids are, and a pair of points so far apart. For solids that overlap, which
+ * have inner points in common, both ends of the distance are 0, and both points are such a point.
+ * For those that touch, the lower end alone is 0. Between surfaces that are equally near over a
+ * wide range, the lower end may be poor, as the search ends after many thousand boxes. A solid
+ * without points, or without an end, is refused. Since 1.1.
+ * @param on_a  gets the point of `a`
+ * @param on_b  gets the point of `b`
+ */
+CRT_API crt_status crt_entity_clearance(crt_entity* a, crt_entity* b, double relative_width,
+                                        crt_interval* distance, double on_a[3], double on_b[3]);
+/**
+ * Finds how thin the thinnest wall of a solid is: the shortest chord in it that is normal to the
+ * surface at one end and within 5 degrees of a normal at the other. So the edge of a box is no
+ * wall. The chord is as long as the upper end says. Both ends are INFINITY, and both points 0, if
+ * there is no wall. The lower end may be poor where curved walls of one thickness are large, and is
+ * 0 where a surface has a point without a normal, such as the apex of a cone: the search ends after
+ * many thousand pairs of boxes, which is some seconds. Since 1.1.
+ * @param relative_width  such as 0.01
+ * @param from            gets one end of the chord
+ * @param to              gets the other end
+ */
+CRT_API crt_status crt_entity_thickness(crt_entity* entity, double relative_width,
+                                        crt_interval* least, double from[3], double to[3]);
+
+/** Says how much two entities have in common. The layout is fixed for ever: 32 bytes. Since 1.1. */
+typedef struct crt_overlap {
+  uint64_t first; /**< places in what was given, first < second */
+  uint64_t second;
+  crt_interval volume; /**< above 0 at its upper end */
+} crt_overlap;
+
+/**
+ * Finds which solids overlap, with how much each pair has in common. Surfaces without an inside are
+ * passed over, and so is what only touches. Since 1.1.
+ * @param seconds   is for each pair
+ * @param overlaps  gets the first `capacity` pairs, in order; may be NULL if that is 0
+ * @param count     gets how many there are
+ */
+CRT_API crt_status crt_interference(crt_entity* const* entities, size_t entity_count,
+                                    double relative_width, double seconds, crt_overlap* overlaps,
+                                    size_t capacity, size_t* count);
 
 /** @} */
 

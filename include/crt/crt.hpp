@@ -36,6 +36,7 @@
 #include <crt/section.hpp>
 #include <crt/settings.hpp>
 #include <crt/stats.hpp>
+#include <crt/surface_mesh.hpp>
 #include <crt/svg_path.hpp>
 #include <crt/text.hpp>
 #include <crt/transform.hpp>

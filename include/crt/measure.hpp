@@ -140,4 +140,42 @@ struct Overlap {
 std::vector<Overlap> interference(std::span<const Entity> entities,
                                   const MeasureOptions& options = {});
 
+/// A LinePiece is a piece of a line that is in a solid, between two distances along the line.
+struct LinePiece {
+  Interval from;
+  Interval to;
+};
+
+/// Finds which pieces of a line are in a solid, in order. Distances are from the origin, in scene
+/// units, and below 0 behind it. They are found to rounding. Where parts of a union touch, the
+/// piece goes on, by identity. A piece or a gap that is no longer than rounding may be left out.
+/// Where the line runs along a surface, or merely touches one, `from` and `to` may hold all of that
+/// stretch. Throws Error (invalid_argument) for an origin that is not finite, and a direction that
+/// is not or that is 0.
+std::vector<LinePiece> thickness_along(const Entity& entity, const Vec3& origin,
+                                       const Vec3& direction);
+
+/// WallOptions say what a wall is, and how well its thickness is to be known.
+struct WallOptions {
+  /// The sides of a wall are parallel up to this angle, in degrees from 0 to 45. So what narrows to
+  /// an edge is no wall if its sides meet at a larger angle.
+  double angle = 5;
+  MeasureOptions measure{.relative_width = 1e-2};
+};
+
+/// A Wall is where a solid is thinnest.
+struct Wall {
+  Interval thickness;  ///< infinite at both ends if there is no wall
+  Vec3 from{0, 0, 0};  ///< a chord as long as the upper end says, to rounding
+  Vec3 to{0, 0, 0};
+};
+
+/// Finds the thinnest wall of a solid: the shortest chord in it that is normal to the surface at
+/// one end (to a hundred thousandth of a radian, as rounding goes) and within WallOptions::angle of
+/// a normal at the other. So a ball is as thick as its diameter, and the edge of a box is no wall.
+/// The chord that is given is surely there. The lower end may be poor, down to 0, where a surface
+/// has a point without a normal (the apex of a cone), where curved walls of one thickness are
+/// large, and for Custom solids: the search ends after many thousand pairs of boxes.
+Wall least_wall(const Entity& entity, const WallOptions& options = {});
+
 }  // namespace crt

@@ -20,12 +20,12 @@ from ._crossings import Crossings
 from ._library import version
 from ._version import __version__
 from .custom import Custom
-from .entities import Entity, difference, intersection, union
+from .entities import Entity, difference, interference, intersection, union
 from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Status
 from .expressions import Expression
 from .images import Image
 from .jobs import Job
-from .measures import Interval, Mass
+from .measures import Clearance, Interval, Mass, Nearest, Overlap, Thickness
 from .meshes import Mesh, MeshReport, load_mesh, mesh_report
 from .notebooks import Live
 from .primitives import (
@@ -104,6 +104,7 @@ __all__ = [
     "Call",
     "Camera",
     "Capsule",
+    "Clearance",
     "Cone",
     "Crossings",
     "Custom",
@@ -138,6 +139,8 @@ __all__ = [
     "MeshReport",
     "MissingFileError",
     "NO_ENTITY",
+    "Nearest",
+    "Overlap",
     "Pattern",
     "PatternType",
     "PixelFilter",
@@ -159,6 +162,7 @@ __all__ = [
     "Sphere",
     "Status",
     "Superellipsoid",
+    "Thickness",
     "ToneMap",
     "Torus",
     "Triangle",
@@ -167,6 +171,7 @@ __all__ = [
     "camera_rays",
     "difference",
     "farm",
+    "interference",
     "intersection",
     "live",
     "load_mesh",

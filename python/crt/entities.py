@@ -20,7 +20,7 @@ from ._arguments import Point
 from ._handles import Handle, Reference
 from ._library import create, library
 from ._materials import AnyMaterial, dressed
-from .measures import Interval, Mass
+from .measures import Clearance, Interval, Mass, Nearest, Overlap, Thickness
 from .rays import points_of
 from .sections import Section
 
@@ -199,6 +199,25 @@ class Entity(Handle):
         on its surface, as far as rounding of its equations lets one know, and -1 outside."""
         return measures.sides(self._handle, points_of(points, "contains: points"))
 
+    def distance(self, points: ArrayLike) -> Nearest:
+        """Returns how far points, in an array of ... x 3 numbers, are from the solid's surface,
+        below 0 in it, and its nearest points. No distance is less than the true one. It is at most
+        1e-6 of itself more, unless surfaces are equally near over a wide range, as between a shaft
+        and its bore, or merely touch: there the search ends earlier."""
+        return measures.nearest(self._handle, points_of(points, "distance: points"))
+
+    def clearance(self, other: "Entity", relative_width: SupportsFloat = 1e-6) -> Clearance:
+        """Returns how near this solid and another one are, with a pair of points so far apart."""
+        _arguments.instance(other, Entity, "clearance: other")
+        return measures.clearance(self._handle, other._handle, relative_width)
+
+    def thickness(self, relative_width: SupportsFloat = 1e-2) -> Thickness:
+        """Returns how thin the solid's thinnest wall is: the shortest chord in it that is normal to
+        the surface at one end and within 5 degrees of a normal at the other. So the edge of a box
+        is no wall. The upper end is the length of a chord that is there. The lower end may be poor
+        where curved walls of one thickness are large, and is 0 if there is an apex."""
+        return measures.thickness(self._handle, relative_width)
+
     @property
     def primitive_count(self) -> int:
         """Returns how many primitives it is made of. One that occurs twice counts twice."""
@@ -256,6 +275,18 @@ def difference(whole: Entity, cutters: Iterable[Entity]) -> Entity:
     _arguments.instance(whole, Entity, "difference: whole")
     given = _arguments.instances(cutters, Entity, "difference: cutters")
     return Entity._adopt(create("crt_difference_create", whole._handle, *_handles(given)))
+
+
+def interference(
+    entities: Iterable[Entity],
+    relative_width: SupportsFloat = 1e-6,
+    seconds: SupportsFloat | None = None,
+) -> list[Overlap]:
+    """Returns all pairs of solids that overlap, by their places in `entities`, with the volume that
+    they have in common, each after so many seconds. Surfaces are passed over, and so is what only
+    touches."""
+    given = _arguments.instances(entities, Entity, "interference: entities")
+    return measures.overlaps(_handles(given), relative_width, seconds)
 
 
 def _handles(parts: list[Entity]) -> tuple[Any, int]:

@@ -60,6 +60,42 @@ class Mass:
         return np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
 
 
+class Nearest(NamedTuple):
+    """Nearest has the distances of points from a solid's surface, and its nearest points."""
+
+    distance: NDArray[np.float64]  # below 0 in the solid
+    point: NDArray[np.float64]
+
+
+class Clearance(NamedTuple):
+    """A Clearance is how near two solids are, with a pair of points so far apart."""
+
+    distance: Interval  # 0 at its lower end if they touch or overlap
+    on_a: NDArray[np.float64]
+    on_b: NDArray[np.float64]
+
+    @property
+    def overlap(self) -> bool:
+        """Says whether they have inner points in common, such as `on_a`."""
+        return self.distance.upper == 0
+
+
+class Thickness(NamedTuple):
+    """A Thickness is how thin the thinnest wall of a solid is, with the ends of a chord there."""
+
+    least: Interval  # infinite if there is no wall
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+
+
+class Overlap(NamedTuple):
+    """An Overlap says how much two of several entities have in common."""
+
+    first: int  # places in what was given
+    second: int
+    volume: Interval
+
+
 class _Interval(ctypes.Structure):
     _fields_ = [("lower", ctypes.c_double), ("upper", ctypes.c_double)]
 
@@ -78,6 +114,15 @@ class _Mass(ctypes.Structure):
         ("centroid", _Interval * 3),
         ("inertia", _Interval * 6),
     ]
+
+
+class _Overlap(ctypes.Structure):
+    """This is crt_overlap of crt.h."""
+
+    _fields_ = [("first", ctypes.c_uint64), ("second", ctypes.c_uint64), ("volume", _Interval)]
+
+    def plain(self) -> Overlap:
+        return Overlap(self.first, self.second, self.volume.plain())
 
 
 def _options(
@@ -121,3 +166,46 @@ def sides(entity: Reference, points: NDArray[np.float64]) -> NDArray[np.int8]:
     out = np.empty(points.shape[:-1], np.int8)
     library.crt_entity_contains(entity, points.ctypes.data, 0, out.size, out.ctypes.data)
     return out
+
+
+def nearest(entity: Reference, points: NDArray[np.float64]) -> Nearest:
+    """Returns how far points are from the surface of a solid, and where that is nearest."""
+    distance, point = np.empty(points.shape[:-1]), np.empty(points.shape)
+    library.crt_entity_distance(
+        entity, points.ctypes.data, 0, distance.size, distance.ctypes.data, point.ctypes.data, 0
+    )
+    return Nearest(distance, point)
+
+
+def clearance(a: Reference, b: Reference, relative_width: SupportsFloat) -> Clearance:
+    """Returns how near two solids are."""
+    width = _arguments.number(relative_width, "clearance: relative_width")
+    distance, on_a, on_b = _Interval(), np.empty(3), np.empty(3)
+    library.crt_entity_clearance(
+        a, b, width, ctypes.byref(distance), on_a.ctypes.data, on_b.ctypes.data
+    )
+    return Clearance(distance.plain(), on_a, on_b)
+
+
+def thickness(entity: Reference, relative_width: SupportsFloat) -> Thickness:
+    """Returns how thin a solid's thinnest wall is."""
+    width = _arguments.number(relative_width, "thickness: relative_width")
+    least, start, end = _Interval(), np.empty(3), np.empty(3)
+    library.crt_entity_thickness(
+        entity, width, ctypes.byref(least), start.ctypes.data, end.ctypes.data
+    )
+    return Thickness(least.plain(), start, end)
+
+
+def overlaps(
+    handles: tuple[Any, int], relative_width: SupportsFloat, seconds: SupportsFloat | None
+) -> list[Overlap]:
+    """Returns which solids overlap, and how much. `handles` are an array and its length."""
+    options = _options("interference", relative_width, seconds)
+    capacity, count = max(64, 4 * handles[1]), ctypes.c_size_t()
+    while True:
+        found = (_Overlap * capacity)()
+        library.crt_interference(*handles, *options, found, capacity, ctypes.byref(count))
+        if count.value <= capacity:
+            return [overlap.plain() for overlap in found[: count.value]]
+        capacity = count.value

@@ -1,4 +1,5 @@
 // This file implements the measures of the C interface.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "text/format.hpp"
 
 static_assert(sizeof(crt_interval) == 16 && offsetof(crt_interval, upper) == 8);
+static_assert(sizeof(crt_overlap) == 32 && offsetof(crt_overlap, volume) == 16);
 
 namespace crt::capi {
 
@@ -47,6 +49,28 @@ crt_status give_interval(Interval (*measure)(const Entity&, const MeasureOptions
     require(out, "out");
     *out = c_interval(measure(entity->value, to_measure_options(relative_width, seconds)));
   });
+}
+
+void copy_to(double* out, const Vec3& point) {
+  for (int axis = 0; axis < 3; ++axis) out[axis] = point[axis];
+}
+
+/// Returns how far away the point is that was found, below 0 if that is seen from inside.
+double signed_distance_of(const NearestPoint& nearest) {
+  const Interval& distance = nearest.distance;
+  if (distance.upper <= 0) return distance.lower;
+  return distance.lower < 0 ? 0 : distance.upper;  // a point on the surface has both signs
+}
+
+std::vector<Entity> overlapping_entities(crt_entity* const* entities, std::size_t count) {
+  if (count > 0) require(entities, "entities");
+  std::vector<Entity> list;
+  list.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (entities[i] == nullptr) reject(text::format("entities[{}]", i), "must not be NULL");
+    list.push_back(entities[i]->value);
+  }
+  return list;
 }
 
 }  // namespace
@@ -107,5 +131,69 @@ crt_status crt_entity_contains(crt_entity* entity, const double* points, size_t 
     std::vector<crt::PointSide> answers(count);
     crt::contains(entity->value, questions, answers);
     for (std::size_t i = 0; i < count; ++i) side[i] = static_cast<std::int8_t>(answers[i]);
+  });
+}
+
+crt_status crt_entity_distance(crt_entity* entity, const double* points, size_t stride,
+                               size_t count, double* signed_distance, double* nearest,
+                               size_t nearest_stride) {
+  return guarded([&] {
+    require(entity, "entity");
+    const std::vector<crt::Vec3> questions = to_points(points, stride, count);
+    if (count > 0) require(signed_distance, "signed_distance");
+    const bool wants_points = nearest != nullptr && count > 0;
+    const Places<std::byte> places(reinterpret_cast<std::byte*>(nearest), nearest_stride,
+                                   sizeof(crt::Vec3), wants_points ? count : 0, "nearest");
+    std::vector<crt::NearestPoint> answers(count);
+    crt::nearest_points(entity->value, questions, answers);
+    for (std::size_t i = 0; i < count; ++i) {
+      signed_distance[i] = signed_distance_of(answers[i]);
+      if (wants_points) std::memcpy(places[i], &answers[i].point, sizeof(crt::Vec3));
+    }
+  });
+}
+
+crt_status crt_entity_clearance(crt_entity* a, crt_entity* b, double relative_width,
+                                crt_interval* distance, double on_a[3], double on_b[3]) {
+  return guarded([&] {
+    require(a, "a");
+    require(b, "b");
+    require(distance, "distance");
+    require(on_a, "on_a");
+    require(on_b, "on_b");
+    const crt::Clearance found =
+        crt::clearance(a->value, b->value, to_measure_options(relative_width, 0));
+    *distance = c_interval(found.distance);
+    copy_to(on_a, found.on_a);
+    copy_to(on_b, found.on_b);
+  });
+}
+
+crt_status crt_interference(crt_entity* const* entities, size_t entity_count, double relative_width,
+                            double seconds, crt_overlap* overlaps, size_t capacity, size_t* count) {
+  return guarded([&] {
+    require(count, "count");
+    if (capacity > 0) require(overlaps, "overlaps");
+    const std::vector<crt::Entity> list = overlapping_entities(entities, entity_count);
+    const std::vector<crt::Overlap> found =
+        crt::interference(list, to_measure_options(relative_width, seconds));
+    for (std::size_t i = 0; i < std::min(found.size(), capacity); ++i)
+      overlaps[i] = {found[i].first, found[i].second, c_interval(found[i].volume)};
+    *count = found.size();
+  });
+}
+
+crt_status crt_entity_thickness(crt_entity* entity, double relative_width, crt_interval* least,
+                                double from[3], double to[3]) {
+  return guarded([&] {
+    require(entity, "entity");
+    require(least, "least");
+    require(from, "from");
+    require(to, "to");
+    const crt::Wall wall =
+        crt::least_wall(entity->value, {.measure = to_measure_options(relative_width, 0)});
+    *least = c_interval(wall.thickness);
+    copy_to(from, wall.from);
+    copy_to(to, wall.to);
   });
 }

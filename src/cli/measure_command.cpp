@@ -41,11 +41,13 @@ class EntityMeasuring {
                    .area = {},
                    .mass = {},
                    .centroid = {},
-                   .inertia = {}};
+                   .inertia = {},
+                   .wall = {}};
     if (all_ || request_.bounds) found.bounds = tight_bounding_box(entity, options_);
     try {
       measure_mass(entity, found);
       if (request_.section) found.section = find_section(request_, entity, options_);
+      if (request_.thickness) found.wall = least_wall(entity, wall_options());
     } catch (const Error& error) {
       if (error.code() != ErrorCode::invalid_argument) throw;
       found.fault = error.what();
@@ -54,6 +56,12 @@ class EntityMeasuring {
   }
 
  private:
+  WallOptions wall_options() const {
+    WallOptions walls{.measure = options_};
+    walls.measure.relative_width = request_.wall_width;
+    return walls;
+  }
+
   void measure_mass(const Entity& entity, Measured& found) const {
     if (all_ || request_.mass) {
       const MassProperties properties = mass_properties(entity, options_);
@@ -96,14 +104,19 @@ std::optional<std::array<Interval, 3>> common_centroid(const std::vector<Measure
                                                        const Interval& volume) {
   if (!(volume.lower > 0)) return {};
   std::array<Interval, 3> sum{};
+  bool is_known = false;
   for (const Measured& part : parts) {
     if (!part.volume || !part.centroid) continue;
+    is_known = true;
     for (std::size_t i = 0; i < 3; ++i)
       sum[i] = sum_of(sum[i], product_of(*part.volume, (*part.centroid)[i]));
   }
+  if (!is_known) return {};
   for (Interval& number : sum) number = quotient_of(number, volume);
   return sum;
 }
+
+}  // namespace
 
 Measured sum_of(const std::vector<Measured>& parts) {
   Measured sum;
@@ -119,6 +132,8 @@ Measured sum_of(const std::vector<Measured>& parts) {
   if (sum.volume) sum.centroid = common_centroid(parts, *sum.volume);
   return sum;
 }
+
+namespace {
 
 // ---- as text --------------------------------------------------------------------------------
 
@@ -155,6 +170,16 @@ std::string inertia_text(const std::array<Interval, 6>& inertia) {
   return text;
 }
 
+std::string wall_text(const Wall& wall, std::string_view unit) {
+  if (std::isinf(wall.thickness.lower)) return "none: no two sides of it are parallel";
+  if (std::isinf(wall.thickness.upper))
+    return fmt::format("none is known, at least {} {}", end_text(wall.thickness.lower, 0, false),
+                       unit);
+  return fmt::format("{} {}, {}\n    from    {} {}\n    to      {} {}", number_text(wall.thickness),
+                     unit, bounds_text(wall.thickness), point_text(wall.from), unit,
+                     point_text(wall.to), unit);
+}
+
 std::string report(const Measured& found, const MeasureRequest& request, std::string_view unit) {
   std::string text = found.name + "\n";
   const auto add_line = [&](std::string_view what, const std::string& value) {
@@ -172,17 +197,18 @@ std::string report(const Measured& found, const MeasureRequest& request, std::st
   if (found.centroid) add_line("centroid", centroid_text(*found.centroid, unit));
   if (found.inertia) add_line("inertia", "about the centroid" + inertia_text(*found.inertia));
   if (found.section) text += section_text(*found.section, unit);
+  if (found.wall) add_line("thickness", wall_text(*found.wall, unit));
   return text;
 }
 
 // ---- the command ----------------------------------------------------------------------------
 
-void print_text(const MeasureRequest& request, std::string_view unit,
-                const std::vector<Measured>& parts, Reporter& reporter) {
+std::string report_of_all(const MeasureRequest& request, std::string_view unit,
+                          const std::vector<Measured>& parts) {
   std::string text;
   for (const Measured& part : parts) text += report(part, request, unit);
   if (parts.size() != 1) text += report(sum_of(parts), request, unit);
-  reporter.print(text, Reporter::IfClosed::fails);
+  return text;
 }
 
 /// Returns the line of the script that an entity is from, from 1 on.
@@ -201,6 +227,16 @@ void check_section_output(const MeasureRequest& request) {
   check_writable(request.output);
 }
 
+/// Returns what the entities of a scene are called.
+std::vector<std::string> names_of(const ScriptResult& result, const std::string& script) {
+  std::vector<std::string> names;
+  names.reserve(result.scene->entities.size());
+  for (std::size_t place = 0; place < result.scene->entities.size(); ++place)
+    names.push_back(
+        fmt::format("entity {} (line {})", place, line_of(script, result.entity_places.at(place))));
+  return names;
+}
+
 void measure(const MeasureRequest& request, Reporter& reporter) {
   check_section_output(request);
   const InterruptScope interrupt;
@@ -210,26 +246,27 @@ void measure(const MeasureRequest& request, Reporter& reporter) {
   const ScriptSource script(request.scene, request.script.limits);
   const ScriptResult result = run_scene(script, script_options, false, reporter);
   if (!result.scene) return;
-  const EntityMeasuring measuring(request, {.relative_width = request.relative_width,
-                                            .seconds = request.seconds,
-                                            .threads = request.threads,
-                                            .go_on = go_on});
-  const std::string text = script.text();
+  const MeasureOptions options{.relative_width = request.relative_width,
+                               .seconds = request.seconds,
+                               .threads = request.threads,
+                               .go_on = go_on};
+  const EntityMeasuring measuring(request, options);
+  const std::vector<Entity>& entities = result.scene->entities;
+  const std::vector<std::string> names = names_of(result, script.text());
+  const MeasuredPairs pairs = measure_pairs(request, entities, names, options);
   std::vector<Measured> parts;
-  for (const Entity& entity : result.scene->entities) {
-    const std::size_t place = parts.size();
-    const std::string name =
-        fmt::format("entity {} (line {})", place, line_of(text, result.entity_places.at(place)));
-    parts.push_back(measuring.measure(entity, name));
-  }
+  for (std::size_t i = 0; i < entities.size() && request.asks_for_entities(); ++i)
+    parts.push_back(measuring.measure(entities[i], names[i]));
   if (!request.output.empty()) write_sections(request, result.scene->settings.unit, parts);
   const std::string_view unit = schema::script_name_of(result.scene->settings.unit);
+  std::string text;
   if (request.json) {
-    reporter.print(measures_json(request, script.name(), unit, parts, sum_of(parts)) + "\n",
-                   Reporter::IfClosed::fails);
+    text = measures_json(request, script.name(), unit, parts, pairs) + "\n";
   } else {
-    print_text(request, unit, parts, reporter);
+    if (request.asks_for_entities()) text = report_of_all(request, unit, parts);
+    text += pairs_text(pairs, names, unit);
   }
+  reporter.print(text, Reporter::IfClosed::fails);
 }
 
 }  // namespace

@@ -46,6 +46,14 @@ Json json_of(const Section& section) {
           {"contours", std::move(contours)}};
 }
 
+Json json_of(const Wall& wall) {
+  Json object = {{"least", json_of(wall.thickness)}};
+  if (!std::isfinite(wall.thickness.upper)) return object;
+  object["from"] = json_of(wall.from);
+  object["to"] = json_of(wall.to);
+  return object;
+}
+
 Json json_of(const Measured& found) {
   Json object = {{"name", found.name}};
   const auto add_member = [&](const char* name, const auto& value) {
@@ -59,19 +67,43 @@ Json json_of(const Measured& found) {
   add_member("centroid", found.centroid);
   add_member("inertia", found.inertia);
   add_member("section", found.section);
+  add_member("thickness", found.wall);
   return object;
+}
+
+Json json_of(const MeasuredDistance& found) {
+  return {{"first", found.first},
+          {"second", found.second},
+          {"distance", json_of(found.clearance.distance)},
+          {"on_first", json_of(found.clearance.on_a)},
+          {"on_second", json_of(found.clearance.on_b)},
+          {"overlap", found.clearance.overlap}};
+}
+Json json_of(const Overlap& overlap) {
+  return {
+      {"first", overlap.first}, {"second", overlap.second}, {"volume", json_of(overlap.volume)}};
+}
+template <class Item>
+Json json_of_all(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(json_of(item));
+  return list;
 }
 
 }  // namespace
 
 std::string measures_json(const MeasureRequest& request, const std::string& script,
                           std::string_view unit, const std::vector<Measured>& parts,
-                          const Measured& sum) {
+                          const MeasuredPairs& pairs) {
   Json object = {{"script", script}, {"unit", unit}, {"relative_width", request.relative_width}};
   if (request.mass) object["density"] = request.density;
-  object["entities"] = Json::array();
-  for (const Measured& part : parts) object["entities"].push_back(json_of(part));
-  object["sum"] = json_of(sum);
+  if (request.asks_for_entities()) {
+    object["entities"] = Json::array();
+    for (const Measured& part : parts) object["entities"].push_back(json_of(part));
+    object["sum"] = json_of(sum_of(parts));
+  }
+  if (!pairs.distances.empty()) object["distances"] = json_of_all(pairs.distances);
+  if (pairs.overlaps) object["interference"] = json_of_all(*pairs.overlaps);
   // A script's name may be any bytes.
   return object.dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -63,14 +63,16 @@ CommandTable measure_table(MeasureRequest& request) {
       .footer = R"(Numbers are printed with as many digits as are sure, and with bounds that
 surely hold the truth. They are in the unit of the script's Settings, metres by default. Of what is
 no solid, or has no end, it says why it has no volume. Without any of --volume, --area, --bounds,
---mass and --section it says all but the mass and the section. docs/measure.md has more.
+--mass, --thickness, --section, --distance and --interference it says volume, area, bounds and
+centroid of each entity. docs/measure.md has more.
 
 Examples:
   crt measure part.crt                            bounds, volume, area, centroid
   crt measure part.crt --unit mm --mass --density 7.85e-6
                                                   mass, centroid and inertia, here in kg and mm
   crt measure part.crt --volume --relative-width 1e-9 --json
-  crt measure part.crt --section y=6 -o part.dxf  the area of a section, and its drawing)",
+  crt measure part.crt --section y=6 -o part.dxf  the area of a section, and its drawing
+  crt measure part.crt --distance 0,1             how near two entities are, and where)",
       .rows = {}};
   std::vector<OptionRow>& rows = table.rows;
   add_scene_row(rows, request.scene, "the script; - is standard input");
@@ -81,6 +83,7 @@ Examples:
   add_flag("--area", request.area, "the area of the surface");
   add_flag("--bounds", request.bounds, "the box around it");
   add_flag("--mass", request.mass, "volume, mass, centroid, and the inertia about that");
+  add_flag("--thickness", request.thickness, "how thin the thinnest wall is, and where");
   rows.push_back({.names = "--density",
                   .type = "D",
                   .help = "the mass of a cubed scene unit (1), and asks for --mass",
@@ -88,6 +91,19 @@ Examples:
                     request.density = parse_positive("--density", text);
                     request.mass = true;
                   }});
+  rows.push_back({.names = "--distance",
+                  .type = "A,B",
+                  .help = "how near two entities are, by their numbers; can be given repeatedly",
+                  .take =
+                      [&request](const std::string& text) {
+                        const std::size_t comma = text.find(',');
+                        if (comma == std::string::npos || text.find(',', comma + 1) != text.npos)
+                          throw WrongValue("--distance", "two entities, such as 0,1", text);
+                        request.distances.emplace_back(text.substr(0, comma),
+                                                       text.substr(comma + 1));
+                      },
+                  .repeatable = true});
+  add_flag("--interference", request.interference, "which entities overlap, and by how much");
   add_section_rows(rows, request);
   rows.push_back({.names = "--relative-width",
                   .type = "W",
@@ -97,6 +113,7 @@ Examples:
                     if (!parse_finite(text, request.relative_width) ||
                         !(request.relative_width > 0 && request.relative_width <= 1))
                       throw WrongValue("--relative-width", "a number above 0, at most 1", text);
+                    request.wall_width = request.relative_width;
                   }});
   rows.push_back({.names = "--seconds",
                   .type = "SECONDS",

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/measure_pairs.hpp"
 #include "cli/options.hpp"
 
 namespace crt::cli {
@@ -24,6 +25,7 @@ struct Measured {
   std::optional<std::array<Interval, 3>> centroid;
   std::optional<std::array<Interval, 6>> inertia;
   std::optional<Section> section{};
+  std::optional<Wall> wall;
 };
 
 /// Says whether a box is that of nothing.
@@ -31,9 +33,12 @@ inline bool is_empty(const BoundingBox& box) {
   return !(box.lower.x <= box.upper.x);
 }
 
+/// Returns what all entities together are.
+Measured sum_of(const std::vector<Measured>& parts);
+
 /// Returns all as JSON, with intervals as [lower, upper].
 std::string measures_json(const MeasureRequest& request, const std::string& script,
                           std::string_view unit, const std::vector<Measured>& parts,
-                          const Measured& sum);
+                          const MeasuredPairs& pairs);
 
 }  // namespace crt::cli

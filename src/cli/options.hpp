@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -123,7 +124,7 @@ struct SectionPlane {
 /// A MeasureRequest asks how much entities are, and where.
 struct MeasureRequest : CommonRequest {
   std::filesystem::path scene;
-  // If none of these is asked for, all but the mass and the section are.
+  // If none of these is asked for, volume, area, bounds and centroid are.
   bool volume = false;
   bool area = false;
   bool bounds = false;
@@ -132,13 +133,20 @@ struct MeasureRequest : CommonRequest {
   double deviation = 0;          ///< of the section; 0 stands for a share of the size
   std::filesystem::path output;  ///< gets the section; empty for none
   double hatch = 0;
+  bool thickness = false;
   double density = 1;
   double relative_width = 1e-4;
+  double wall_width = 1e-2;  ///< the relative width of a thickness, which takes longer
   double seconds = std::numeric_limits<double>::infinity();  ///< that each number may take
   int threads = 0;
   bool json = false;
+  std::vector<std::pair<std::string, std::string>> distances;  ///< of entities, as they are called
+  bool interference = false;
 
-  bool asks_for_some() const { return volume || area || bounds || mass || section; }
+  bool asks_for_some() const { return volume || area || bounds || mass || thickness || section; }
+  bool asks_for_pairs() const { return interference || !distances.empty(); }
+  /// Asks whether there is anything to say of single entities.
+  bool asks_for_entities() const { return asks_for_some() || !asks_for_pairs(); }
 };
 
 /// Says what is asked of a script's scene.

@@ -6,11 +6,28 @@
 #include <type_traits>
 #include <variant>
 
+#include "lang/failure.hpp"
 #include "text/format.hpp"
 
 namespace crt::lang {
 
 namespace {
+
+/// Returns how long a unit is, as a whole number, so that the product with one rounds once.
+double tenths_of_millimetre(Unit unit) {
+  switch (unit) {
+    case Unit::m:
+      return 10'000;
+    case Unit::cm:
+      return 100;
+    case Unit::mm:
+      return 10;
+    case Unit::in:
+      break;
+  }
+  return 254;
+}
+
 
 /// More calls than this do not fit on an ordinary thread's stack.
 constexpr std::size_t deepest_calls = 1000;
@@ -134,6 +151,17 @@ Value Context::make_list(Span span, std::vector<Value> items) {
     pass_limit(span, text::format("lists nested more than {} deep", deepest_list));
   Charge charge = charge_memory(span, sizeof(ListValue) + items.capacity() * sizeof(Value));
   return std::make_shared<ListValue>(ListValue{std::move(items), depth, std::move(charge)});
+}
+
+double Context::length(Span span, double value, Unit unit_of_value) {
+  if (!unit) {
+    fail(span,
+         "a length needs the scene's unit, which is computed and not known here: write it as a "
+         "plain text in the Settings, such as unit -> \"mm\"");
+  }
+  has_lengths_ = true;
+  if (unit_of_value == *unit) return value;
+  return value * tenths_of_millimetre(unit_of_value) / tenths_of_millimetre(*unit);
 }
 
 void Context::print(Span span, const std::string& line) {

@@ -45,6 +45,8 @@ class Context {
   Files files;
   /// This is the value of the options, or else of the running script's Settings.
   int compat = 0;
+  /// This is the unit of the scene, as far as it is known before its Settings have run.
+  std::optional<Unit> unit;
   Random random;
   Random2015 random_2015;
 
@@ -71,6 +73,11 @@ class Context {
   void check_string_size(Span span, std::size_t bytes);
   void check_list_size(Span span, std::size_t items);
   Charge charge_memory(Span span, std::size_t bytes);
+
+  /// Returns how many scene units a length is. Throws a Failure while the unit is not known.
+  double length(Span span, double value, Unit unit_of_value);
+  /// Says whether a length was asked for, which the unit has then decided.
+  bool has_lengths() const { return has_lengths_; }
 
   void print(Span span, const std::string& line);
 
@@ -114,6 +121,7 @@ class Context {
   std::uint64_t emitted_ = 0;
   std::size_t memory_ = 0;
   std::size_t printed_bytes_ = 0;
+  bool has_lengths_ = false;
   std::vector<Activity> activities_;
 };
 

@@ -25,6 +25,10 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   return literal.value;
 }
 
+Value Interpreter::evaluate_node(const Length& length, const Expression& expression) {
+  return context_.length(expression.span, length.value, length.unit);
+}
+
 [[gnu::noinline]] Value Interpreter::evaluate_node(const Name& name, const Expression& expression) {
   const Value* value = scope_->find(name.symbol);
   if (!value) unknown_name(name.symbol, expression.span);

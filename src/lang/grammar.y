@@ -48,7 +48,7 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %token CURSOR "the cursor"
 
 %token <std::int64_t> INTEGER "a whole number"
-%token <double> FLOAT "a number"
+%token <Number> FLOAT "a number"
 %token <std::string> STRING "a string"
 %token <Symbol> IDENTIFIER "a name"
 %token <Symbol> OBJECT_NAME "an object's name"
@@ -219,7 +219,7 @@ unary:
 /* Primaries are here, too. A nonterminal for them would only be reduced to this one. */
 postfix:
     INTEGER                                  { $$ = tree.literal(@$, $1); }
-  | FLOAT                                    { $$ = tree.literal(@$, $1); }
+  | FLOAT                                    { $$ = tree.number(@$, $1); }
   | STRING                                   { $$ = tree.literal(@$, tree.string($1)); }
   | "true"                                   { $$ = tree.literal(@$, true); }
   | "false"                                  { $$ = tree.literal(@$, false); }

@@ -117,6 +117,7 @@ class Interpreter {
 
   // Expressions: evaluate.cpp.
   Value evaluate_node(const Literal& literal, const Expression& expression);
+  Value evaluate_node(const Length& length, const Expression& expression);
   Value evaluate_node(const Name& name, const Expression& expression);
   Value evaluate_node(const ObjectLiteral& object, const Expression& expression);
   Value evaluate_node(const DerivedMaterial& derived, const Expression& expression);

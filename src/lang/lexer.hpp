@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crt/settings.hpp"
 #include "lang/grammar.hpp"
 #include "lang/reporter.hpp"
 #include "lang/source_map.hpp"
@@ -86,7 +87,7 @@ class Lexer {
   void escape(std::string& value);
   std::optional<std::uint32_t> hexadecimal_unit();
   void unicode_escape(std::string& value, const Byte* start);
-  void refuse_letters_after_number();
+  std::optional<Unit> unit_after_number();
 
   void unexpected_character();
   bool refuse_component();

@@ -1,6 +1,10 @@
 // This part of the lexer reads numbers and strings.
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "lang/lexer.hpp"
@@ -22,17 +26,32 @@ bool is_letter(unsigned char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
+struct LengthUnit {
+  std::string_view name;
+  Unit unit;
+};
+
+constexpr std::array length_units = {LengthUnit{"mm", Unit::mm}, LengthUnit{"cm", Unit::cm},
+                                     LengthUnit{"m", Unit::m}, LengthUnit{"in", Unit::in}};
+
 bool is_digit(unsigned char c) {
   return c >= '0' && c <= '9';
 }
 
 }  // namespace
 
-void Lexer::refuse_letters_after_number() {
-  if (!is_letter(*cursor_)) return;
+/// Reads a unit that a number is followed by directly. Other letters there are an error.
+std::optional<Unit> Lexer::unit_after_number() {
+  if (!is_letter(*cursor_)) return {};
+  const Byte* const begin = cursor_;
   while (is_letter(*cursor_) || is_digit(*cursor_)) ++cursor_;
-  reporter_.error(token_span(),
-                  "'" + std::string(token_text()) + "' is neither a number nor a name");
+  const std::string_view letters = text({offset(begin), offset(cursor_)});
+  const auto unit = std::ranges::find(length_units, letters, &LengthUnit::name);
+  if (unit != length_units.end() && compat_ != compat_2015) return unit->unit;
+  reporter_.error(token_span(), "'" + std::string(token_text()) +
+                                    "' is neither a number nor a name; a length such as 10mm has "
+                                    "one of the units mm, cm, m and in");
+  return {};
 }
 
 Grammar::symbol_type Lexer::whole_number() {
@@ -42,8 +61,14 @@ Grammar::symbol_type Lexer::whole_number() {
   if (result.ec != std::errc{})
     reporter_.error(token_span(),
                     "this whole number does not fit into 64 bits; write it as a Float (1e30)");
-  refuse_letters_after_number();
+  const std::size_t length = digits.size();
+  const std::optional<Unit> unit = unit_after_number();
   first_on_line_ = false;
+  if (unit) {
+    double number = 0;
+    std::from_chars(token_text().data(), token_text().data() + length, number);
+    return Grammar::make_FLOAT(Number{number, unit}, token_span());
+  }
   return Grammar::make_INTEGER(value, token_span());
 }
 
@@ -54,9 +79,9 @@ Grammar::symbol_type Lexer::decimal_number() {
   if (result.ec != std::errc{})
     reporter_.error(token_span(),
                     "this number is out of the range of Floats, about 1e-308 to 1e308");
-  refuse_letters_after_number();
+  const std::optional<Unit> unit = unit_after_number();
   first_on_line_ = false;
-  return Grammar::make_FLOAT(value, token_span());
+  return Grammar::make_FLOAT(Number{value, unit}, token_span());
 }
 
 Grammar::symbol_type Lexer::string() {

@@ -56,6 +56,7 @@ class Session {
 
  private:
   int compat_of(const Source& source);
+  std::optional<Unit> unit_of(const Source& source);
   const Script* load(const Source& source, TextKind kind);
   const Script* checked(Script& script);
   void run_main(const Source& source, const Script& script, ScriptResult& result);
@@ -111,6 +112,16 @@ int Session::compat_of(const Source& source) {
   return number == compat_2015 ? compat_2015 : 0;
 }
 
+/// Returns the unit of the scene, if it is known before anything runs.
+std::optional<Unit> Session::unit_of(const Source& source) {
+  const auto setting = std::find_if(options_.settings.rbegin(), options_.settings.rend(),
+                                    [](const auto& given) { return given.first == "unit"; });
+  if (setting == options_.settings.rend()) return written_unit(sources_, source);
+  const std::string_view text = setting->second;
+  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return is_quoted ? unit_of_name(text.substr(1, text.size() - 2)) : std::nullopt;
+}
+
 /// Parses and checks a text. Returns null after an error.
 const Script* Session::load(const Source& source, TextKind kind) {
   Script& script = scripts_.emplace_back(
@@ -139,6 +150,7 @@ void Session::run(std::string_view text, const std::string& name, ScriptResult& 
   const Source& source = sources_.add(name, std::string(text), main_directory_);
   running_.emplace_back(without_links(name), name);
   context_.compat = compat_of(source);
+  context_.unit = unit_of(source);
   const bool is_parsed = parsed_ && parsed_->compat == context_.compat;
   const Script* script = is_parsed ? checked(parsed_->script) : load(source, TextKind::script);
   if (script) run_main(source, *script, result);

@@ -48,6 +48,17 @@ void settle_compat(const Context& context, const std::vector<Given>& attributes,
          "'compat' decides how a script is read: it must be written as a plain number, 2015 or 0");
 }
 
+/// Sets the unit that lengths have from now on. One that they have had already stays.
+void settle_unit(Context& context, Span block, const std::vector<Given>& attributes, Unit unit) {
+  if (context.unit != unit && context.has_lengths()) {
+    const Given* const given = find_given(attributes, "unit");
+    fail(given ? given->value_span : block,
+         "'unit' decides what lengths such as 10mm are, and there are some before it is known: it "
+         "must be written as a plain text, such as \"mm\", in the Settings of the main script");
+  }
+  context.unit = unit;
+}
+
 }  // namespace
 
 const ObjectType& settings_type() {
@@ -60,6 +71,7 @@ void apply_settings(Context& context, Span block, const std::vector<Given>& attr
   const ObjectSite site = {context, block, attributes};
   SettingsFields fields = assemble(site, initial_fields(context));
   settle_compat(context, attributes, fields);
+  settle_unit(context, block, attributes, fields.unit);
   try {
     validate(static_cast<const Settings&>(fields));
   } catch (const Error& error) {

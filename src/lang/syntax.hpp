@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "crt/settings.hpp"
 #include "lang/source_map.hpp"
 #include "lang/symbol.hpp"
 #include "lang/value.hpp"
@@ -42,6 +44,18 @@ struct NamePlace {
 /// A Literal is a number, string or Boolean (rule 23).
 struct Literal {
   Value value;
+};
+
+/// A Number is written with a point or an exponent, or with a unit, such as 2.5 or 10mm.
+struct Number {
+  double value = 0;
+  std::optional<Unit> unit{};
+};
+
+/// A Length is a number with a unit, which the scene's own unit makes a Float of.
+struct Length {
+  double value = 0;
+  Unit unit = Unit::m;
 };
 
 /// A Name is that of a variable, constant, macro or built-in (rule 24).
@@ -166,8 +180,8 @@ struct Assignment {
 };
 
 using ExpressionNode =
-    std::variant<Literal, Name, ObjectLiteral, DerivedMaterial, MacroLiteral, ListLiteral, Index,
-                 Call, Modified, Unary, Chain, Logical, Conditional, Assignment>;
+    std::variant<Literal, Length, Name, ObjectLiteral, DerivedMaterial, MacroLiteral, ListLiteral,
+                 Index, Call, Modified, Unary, Chain, Logical, Conditional, Assignment>;
 
 struct Expression {
   Span span;

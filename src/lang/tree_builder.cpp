@@ -48,6 +48,7 @@ int height_of_node(const ExpressionNode& node) {
   return std::visit(
       Overloaded{
           [](const Literal&) { return 0; },
+          [](const Length&) { return 0; },
           [](const Name&) { return 0; },
           [](const ObjectLiteral& object) { return height_of(object.attributes); },
           [](const DerivedMaterial& material) {

@@ -35,6 +35,10 @@ class TreeBuilder {
   Expression* literal(Span span, Value value) {
     return expression(span, Literal{std::move(value)});
   }
+  Expression* number(Span span, const Number& number) {
+    if (number.unit) return expression(span, Length{number.value, *number.unit});
+    return literal(span, number.value);
+  }
   static Value string(std::string text);
 
   Expression* expression(Span span, ExpressionNode node);

@@ -16,6 +16,7 @@ template <class Derived>
 class TreeWalk {
  public:
   void operator()(const Literal&) {}
+  void operator()(const Length&) {}
   void operator()(const Name&) {}
   void operator()(const ObjectLiteral& object) { derived().visit(object.attributes); }
   void operator()(const DerivedMaterial& material) {

@@ -13,6 +13,11 @@ AT(crt_mass, area, 24);
 AT(crt_mass, centroid, 40);
 AT(crt_mass, inertia, 88);
 
+SIZE(crt_overlap, 32);
+AT(crt_overlap, first, 0);
+AT(crt_overlap, second, 8);
+AT(crt_overlap, volume, 16);
+
 VALUE(CRT_UNIT_M, 0);
 VALUE(CRT_UNIT_CM, 1);
 VALUE(CRT_UNIT_MM, 2);

@@ -3,8 +3,10 @@
 
 #include <crt/crt.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "fuzz_input.hpp"
 
@@ -31,6 +33,25 @@ inline void cut_entity(Input& input, crt_entity* entity) {
   crt_section_release(section);
 }
 
+/// Asks how far away a point and the entity itself are.
+inline void measure_distances(Input& input, crt_entity* entity,
+                              const std::array<double, 3>& point) {
+  // Where much is equally near, a search takes long.
+  if (crt_entity_primitive_count(entity) > 4 || input.below(16) != 0) return;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double distance = infinity;
+  double nearest[3];
+  const crt_status asked =
+      crt_entity_distance(entity, point.data(), 0, 1, &distance, nearest, input.below(64));
+  require((asked == CRT_OK) == (distance < infinity));
+  crt_overlap overlap;
+  std::size_t count = 0;
+  crt_entity* const twice[2] = {entity, entity};
+  if (crt_interference(twice, 2, 0.1, 0.01, &overlap, 1, &count) != CRT_OK || count == 0) return;
+  require(count == 1 && overlap.first == 0 && overlap.second == 1);
+  require_order(overlap.volume);
+}
+
 /// Asks all that can be asked of an entity, for little time.
 inline void measure_entity(Input& input, crt_entity* entity) {
   constexpr std::uint64_t enough = 64;
@@ -43,6 +64,7 @@ inline void measure_entity(Input& input, crt_entity* entity) {
   std::int8_t side = 7;
   const crt_status asked = crt_entity_contains(entity, point.data(), 0, 1, &side);
   require(asked == CRT_OK ? side >= -1 && side <= 1 : side == 7);
+  measure_distances(input, entity, point);
   constexpr double width = 0.1;
   constexpr double seconds = 0.01;
   crt_interval found = {1, -1};

@@ -300,3 +300,101 @@ TEST_CASE("what is wrong with a question about a section is named") {
   names(crt_section_write(section, ""), "path");
   crt_section_release(section);
 }
+
+TEST_CASE("points are as far from a ball as formulas say, with the nearest points beside") {
+  const EntityHandle ball = sphere({1, 2, 3}, 2);
+  struct Point {
+    double place[3];
+    float after;
+  };
+  const std::vector<Point> points = {{{6, 2, 3}, 0}, {{1, 3.5, 3}, 0}, {{1, 2, 5}, 0}};
+  const double truth[3] = {3, -0.5, 0};
+  const double nearest[3][3] = {{3, 2, 3}, {1, 4, 3}, {1, 2, 5}};
+  struct Answer {
+    double place[3];
+    std::int64_t beside;
+  };
+  std::vector<Answer> found(points.size(), Answer{{0, 0, 0}, 7});
+  std::vector<double> distances(points.size());
+  REQUIRE(crt_entity_distance(ball.get(), points[0].place, sizeof(Point), points.size(),
+                              distances.data(), found[0].place, sizeof(Answer)) == CRT_OK);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    INFO(i);
+    CHECK(std::abs(distances[i] - truth[i]) <= 1e-6);
+    CHECK(std::abs(distances[i]) >= std::abs(truth[i]) - 1e-12);
+    for (int axis = 0; axis < 3; ++axis)
+      CHECK(found[i].place[axis] == doctest::Approx(nearest[i][axis]).epsilon(1e-2));
+    CHECK(found[i].beside == 7);
+  }
+  double alone = 0;
+  CHECK(crt_entity_distance(ball.get(), points[0].place, 0, 1, &alone, nullptr, 0) == CRT_OK);
+  CHECK(alone == distances[0]);
+  CHECK(crt_entity_distance(ball.get(), nullptr, 0, 0, nullptr, nullptr, 0) == CRT_OK);
+  const double nowhere[3] = {0, not_a_number, 0};
+  CHECK(crt_entity_distance(ball.get(), nowhere, 0, 1, &alone, nullptr, 0) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("points[0]"));
+  CHECK(alone == distances[0]);
+}
+
+TEST_CASE("solids are apart, touch or overlap") {
+  const EntityHandle ball = sphere({0, 0, 0}, 1);
+  const EntityHandle beside = box({3, -1, -1}, {4, 1, 1});
+  const EntityHandle touching = box({1, -1, -1}, {2, 1, 1});
+  const EntityHandle within = box({0.5, -1, -1}, {2, 1, 1});
+  crt_interval distance = {7, 7};
+  double on_a[3];
+  double on_b[3];
+  REQUIRE(crt_entity_clearance(ball.get(), beside.get(), 1e-6, &distance, on_a, on_b) == CRT_OK);
+  CHECK(holds(distance, 2));
+  CHECK(distance.upper - distance.lower <= 2e-6);
+  CHECK(on_a[0] == doctest::Approx(1));
+  CHECK(on_b[0] == doctest::Approx(3));
+  REQUIRE(crt_entity_clearance(ball.get(), touching.get(), 1e-6, &distance, on_a, on_b) == CRT_OK);
+  CHECK(distance.lower == 0);
+  CHECK(distance.upper > 0);
+  CHECK(distance.upper < 1e-6);
+  REQUIRE(crt_entity_clearance(ball.get(), within.get(), 1e-6, &distance, on_a, on_b) == CRT_OK);
+  CHECK(distance.lower == 0);
+  CHECK(distance.upper == 0);
+  for (int axis = 0; axis < 3; ++axis) CHECK(on_a[axis] == on_b[axis]);
+  std::int8_t side = 0;
+  CHECK(crt_entity_contains(within.get(), on_a, 0, 1, &side) == CRT_OK);
+  CHECK(side == 1);
+}
+
+TEST_CASE("pairs that overlap are found, however many there is room for") {
+  const EntityHandle a = box({0, 0, 0}, {2, 2, 2});
+  const EntityHandle b = box({2, 0, 0}, {3, 2, 2});
+  const EntityHandle c = box({1, 1, 1}, {4, 4, 4});
+  crt_entity* const parts[3] = {a.get(), b.get(), c.get()};
+  crt_overlap overlaps[2];
+  std::size_t count = 0;
+  REQUIRE(crt_interference(parts, 3, 1e-6, 0, nullptr, 0, &count) == CRT_OK);
+  CHECK(count == 2);
+  overlaps[1].first = 7;
+  REQUIRE(crt_interference(parts, 3, 1e-6, 0, overlaps, 1, &count) == CRT_OK);
+  CHECK(count == 2);
+  CHECK(overlaps[1].first == 7);
+  REQUIRE(crt_interference(parts, 3, 1e-6, 0, overlaps, 2, &count) == CRT_OK);
+  CHECK(overlaps[0].first == 0);
+  CHECK(overlaps[0].second == 2);
+  CHECK(holds(overlaps[0].volume, 1));
+  CHECK(overlaps[1].first == 1);
+  CHECK(overlaps[1].second == 2);
+  CHECK(holds(overlaps[1].volume, 1));
+}
+
+TEST_CASE("the thinnest wall of a plate is the plate's, with a chord across it") {
+  const EntityHandle plate = box({0, 0, 0}, {5, 0.5, 4});
+  crt_interval least;
+  double from[3];
+  double to[3];
+  REQUIRE(crt_entity_thickness(plate.get(), 0.01, &least, from, to) == CRT_OK);
+  CHECK(holds(least, 0.5));
+  CHECK(least.upper - least.lower <= 0.005);
+  CHECK(std::abs(to[1] - from[1]) == doctest::Approx(0.5));
+  CHECK(to[0] == doctest::Approx(from[0]));
+  CHECK(crt_entity_thickness(plate.get(), 0, &least, from, to) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("relative_width"));
+}

@@ -15,6 +15,8 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
   const ProfileHandle square = square_profile();
   crt_mass mass;
   CHECK(crt_mass_init(&mass, sizeof mass) == CRT_OK);
+  std::size_t count = 0;
+  double place[3];
   for (const double bad : {not_a_number, infinity, -infinity}) {
     for (int axis = 0; axis < 3; ++axis) {
       Numbers v = {1, 2, 3};
@@ -103,6 +105,12 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
         {"relative_width", [&] { return crt_entity_volume(ball.get(), bad, 0, &mass.volume); }},
         {"relative_width", [&] { return crt_entity_area(ball.get(), bad, 0, &mass.area); }},
         {"relative_width", [&] { return crt_entity_mass(ball.get(), bad, 0, &mass); }},
+        {"relative_width",
+         [&] { return crt_interference(nullptr, 0, bad, 0, nullptr, 0, &count); }},
+        {"relative_width",
+         [&] {
+           return crt_entity_clearance(ball.get(), ball.get(), bad, &mass.volume, place, place);
+         }},
     });
     CHECK(out == nullptr);
   }
@@ -115,6 +123,7 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
         {"seconds", [&] { return crt_entity_volume(ball.get(), 0.1, bad, &mass.volume); }},
         {"seconds", [&] { return crt_entity_area(ball.get(), 0.1, bad, &mass.area); }},
         {"seconds", [&] { return crt_entity_mass(ball.get(), 0.1, bad, &mass); }},
+        {"seconds", [&] { return crt_interference(nullptr, 0, 0.1, bad, nullptr, 0, &count); }},
     });
   }
   CHECK(crt_scene_light_count(scene.get()) == 0);

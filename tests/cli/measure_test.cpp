@@ -211,3 +211,75 @@ TEST_CASE_FIXTURE(Fixture, "wrong questions about sections are refused") {
       run_crt(folder, {"measure", "ball.crt", "--section", "z=0", "--deviation", "0"}).exit_code !=
       0);
 }
+
+TEST_CASE_FIXTURE(Fixture, "two entities are as far apart as is printed, with a point of each") {
+  const Json json = measured({"parts.crt", "--distance", "1,0", "--distance", "entity 1,0"});
+  CHECK(!json.has("entities"));
+  REQUIRE(json["distances"].items.size() == 2);
+  const Json& found = json["distances"].items[0];
+  // From the ball's middle to the corner of the plate at (4, 0, 0) is 1, so they touch.
+  CHECK(found["first"].number == 1);
+  CHECK(found["second"].number == 0);
+  CHECK(found["distance"].items[0].number == 0);
+  CHECK(found["on_second"].items[0].number == doctest::Approx(4));
+  folder.write("two.crt", R"(Settings { unit -> "mm" }
+Scene {
+  Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, 1) }
+  Box { cornerA -> vec3(3, 0, 0) cornerB -> vec3(4, 1, 1) }
+  Box { cornerA -> vec3(0.5, 0.5, 0.5) cornerB -> vec3(2, 2, 2) }
+})");
+  const Outcome apart =
+      run_crt(folder, {"measure", "two.crt", "--distance", "entity 0 (line 3),entity 1 (line 4)"});
+  CHECK_MESSAGE(apart.exit_code == 0, apart.err);
+  CHECK(contains(apart.out, "distance of entity 0 (line 3) and entity 1 (line 4)\n  clearance 2"));
+  CHECK(contains(apart.out, "  from      (1, "));
+  CHECK(contains(apart.out, "  to        (3, "));
+  CHECK(!contains(apart.out, "volume"));
+  const Outcome within = run_crt(folder, {"measure", "two.crt", "--distance", "0,2", "--volume"});
+  CHECK(contains(within.out, "  overlap   both hold ("));
+  CHECK(contains(within.out, "  volume    1.0"));
+  CHECK(!contains(within.out, "centroid"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "entities that overlap are listed with the volume they have in common") {
+  folder.write("three.crt", R"(Scene {
+  Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(2, 2, 2) }
+  Box { cornerA -> vec3(2, 0, 0) cornerB -> vec3(3, 2, 2) }
+  Box { cornerA -> vec3(1, 1, 1) cornerB -> vec3(4, 4, 4) }
+})");
+  const Json json = measured({"three.crt", "--interference"});
+  REQUIRE(json["interference"].items.size() == 2);
+  CHECK(json["interference"].items[1]["first"].number == 1);
+  CHECK(json["interference"].items[1]["second"].number == 2);
+  CHECK(holds(json["interference"].items[1]["volume"], 1));
+  const Outcome run = run_crt(folder, {"measure", "three.crt", "--interference"});
+  CHECK(contains(run.out, "  entity 0 (line 2) and entity 2 (line 4)\n    volume  1"));
+  const Outcome alone = run_crt(folder, {"measure", "ball.crt", "--interference"});
+  CHECK(contains(alone.out, "no two of them overlap"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a distance of what is not there, or has none, is refused") {
+  CHECK(run_crt(folder, {"measure", "parts.crt", "--distance", "0"}).exit_code == 2);
+  CHECK(run_crt(folder, {"measure", "parts.crt", "--distance", "0,1,2"}).exit_code == 2);
+  for (const char* wrong : {"0,4", "0,-1", "entity,0", "0,"}) {
+    const Outcome run = run_crt(folder, {"measure", "parts.crt", "--distance", wrong});
+    CHECK(run.exit_code != 0);
+    CHECK(contains(run.err, "there is no entity '"));
+    CHECK(run.out.empty());
+  }
+  CHECK(contains(run_crt(folder, {"measure", "parts.crt", "--distance", "0,2"}).err, "solid"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "the thinnest wall is said with where it is") {
+  const Json json = measured({"parts.crt", "--thickness"});
+  const Json& plate = json["entities"].items[0]["thickness"];
+  CHECK(holds(plate["least"], 0.5));
+  CHECK(width(plate["least"]) <= 0.005);
+  CHECK(plate["to"].items.size() == 3);
+  CHECK(!json["entities"].items[0].has("volume"));
+  CHECK(contains(json["entities"].items[2]["fault"].string, "only a solid"));
+  const Outcome run = run_crt(folder, {"measure", "parts.crt", "--thickness"});
+  CHECK(contains(run.out, "  thickness 0.5"));
+  CHECK(contains(run.out, " mm, between "));
+  CHECK(contains(run.out, "    from    ("));
+}

@@ -129,6 +129,21 @@ TEST_CASE("round solids are as far apart as formulas say") {
   }
 }
 
+TEST_CASE(
+    "solids overlap however little of one is beyond a face of the other, and touch otherwise") {
+  for (const double depth : {0.5, 0.1, 1e-3, 1e-5}) {
+    CAPTURE(depth);
+    const Box box{.corner_a = {1 - depth, -1, -1}, .corner_b = {3, 1, 1}};
+    const Clearance within = clearance(Sphere{}, box);
+    CHECK(within.overlap);
+    CHECK(within.distance == Interval{0, 0});
+    CHECK(contains(Sphere{}, within.on_a) == PointSide::inside);
+    CHECK(contains(box, within.on_b) == PointSide::inside);
+  }
+  CHECK(!clearance(Sphere{}, Box{.corner_a = {1, -1, -1}, .corner_b = {3, 1, 1}}).overlap);
+  CHECK(!clearance(Sphere{}, Sphere{.center = {0, 2, 0}}).overlap);
+}
+
 TEST_CASE("what is between a shaft and its bore is within the bounds that are given") {
   const Entity bearing = Entity(Box{.corner_a = {-2, -2, -2}, .corner_b = {2, 2, 2}}) -
                          Entity(Cylinder{.from = {0, -3, 0}, .to = {0, 3, 0}, .radius = 1.25});

@@ -92,6 +92,8 @@ class Tutorial(unittest.TestCase):
             self.assertIn("HATCH", file.read_text())
         self.assertLessEqual(section.deviation, 1e-4)
         self.assertGreater(section.area.lower, 0)
+        # The largest ball in a corner of the plates is a little more than half as thick as they.
+        self.assertTrue(0.1 < tutorial_measure.deepest(tutorial_scene.bracket(), 300) < 0.25)
 
     def test_a_render_is_watched_and_may_be_stopped(self):
         scene = small(tutorial_scene.bracket_scene())

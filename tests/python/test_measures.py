@@ -102,6 +102,78 @@ class Contains(unittest.TestCase):
             PLATE.contains([(0, 0), (0, 1)])
 
 
+class Distances(unittest.TestCase):
+    def test_points_are_as_far_away_as_formulas_say(self):
+        points = [[(5, 1, 0.5), (2, 1, 0.75)], [(1, 1, 0.5), (4, 1, 0.5)]]
+        found = PLATE.distance(points)
+        np.testing.assert_allclose(found.distance, [[1, -0.25], [0.5, 0]], atol=1e-6)
+        self.assertEqual(found.point.shape, (2, 2, 3))
+        np.testing.assert_allclose(found.point[0], [(4, 1, 0.5), (2, 1, 1)], atol=1e-2)
+
+    def test_one_point_has_one_answer(self):
+        distance, point = crt.Sphere((0, 0, 0), 1).distance((3, 0, 0))
+        self.assertAlmostEqual(float(distance), 2, 5)
+        self.assertGreaterEqual(distance, 2 - 1e-12)
+        np.testing.assert_allclose(point, (1, 0, 0), atol=1e-2)
+
+    def test_none_are_no_answers(self):
+        self.assertEqual(PLATE.distance(np.empty((0, 3))).point.shape, (0, 3))
+
+    def test_solids_are_apart_or_overlap(self):
+        ball = crt.Sphere((7, 1, 0.5), 1)
+        near = PLATE.clearance(ball)
+        self.assertIn(2, near.distance)
+        self.assertLess(near.distance.width, 1e-5)
+        np.testing.assert_allclose(near.on_a, (4, 1, 0.5), atol=1e-2)
+        np.testing.assert_allclose(near.on_b, (6, 1, 0.5), atol=1e-2)
+        self.assertFalse(near.overlap)
+        within = PLATE.clearance(crt.Sphere((4, 1, 0.5), 1))
+        self.assertTrue(within.overlap)
+        self.assertEqual(PLATE.contains(within.on_a), 1)
+
+    def test_all_pairs_that_overlap_are_found(self):
+        boxes = [crt.Box((i, 0, 0), (i + 1.5, 1, 1)) for i in range(4)]
+        found = crt.interference(boxes, 1e-3)
+        self.assertEqual([(o.first, o.second) for o in found], [(0, 1), (1, 2), (2, 3)])
+        for overlap in found:
+            self.assertIn(0.5, overlap.volume)
+        same = crt.interference([boxes[0]] * 20)
+        self.assertEqual(len(same), 190)
+        self.assertEqual(crt.interference([]), [])
+
+    def test_what_has_no_distance_is_refused(self):
+        with self.assertRaisesRegex(crt.Error, "solid"):
+            crt.Disc((0, 0, 0), (0, 1, 0), 1).distance((0, 0, 0))
+        with self.assertRaisesRegex(crt.Error, r"points\[0\]"):
+            PLATE.distance([(0, math.inf, 0)])
+        with self.assertRaisesRegex(TypeError, "clearance: other"):
+            PLATE.clearance((0, 0, 0))
+        with self.assertRaisesRegex(crt.Error, "relative_width"):
+            PLATE.clearance(PLATE, 2)
+        with self.assertRaisesRegex(TypeError, "interference: entities"):
+            crt.interference([1])
+        with self.assertRaisesRegex(crt.Error, "seconds"):
+            crt.interference([PLATE], seconds=-1)
+
+
+class Thicknesses(unittest.TestCase):
+    def test_the_wall_beside_a_bore_is_the_thinnest(self):
+        least, start, end = PLATE.thickness()
+        self.assertIn(0.5, least)
+        self.assertLess(least.width, 0.006)
+        np.testing.assert_allclose(np.linalg.norm(end - start), least.upper, rtol=1e-6)
+
+    def test_a_corner_has_no_wall(self):
+        corner = crt.Box((0, 0, 0), (1, 1, 1)) & crt.Plane((1, 1, 1), (0.3, 0.3, 0.3))
+        self.assertEqual(corner.thickness().least, (math.inf, math.inf))
+
+    def test_wrong_widths_are_refused(self):
+        with self.assertRaisesRegex(crt.Error, "relative_width"):
+            PLATE.thickness(2)
+        with self.assertRaisesRegex(TypeError, "thickness: relative_width"):
+            PLATE.thickness("thin")
+
+
 class Units(unittest.TestCase):
     def test_a_script_says_what_a_scene_unit_is(self):
         scene = crt.Scene.from_script('Settings { unit -> "mm" } Scene { }')

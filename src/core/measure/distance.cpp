@@ -285,6 +285,32 @@ class PairSearch {
   Clearance result_;
 };
 
+/// Finds an inner point of a solid, from its largest cells on. What merely touches has none, and is
+/// left after many cells.
+std::optional<Vec3> inner_point(const EntityCells& entity) {
+  std::vector<std::pair<const CellSolid*, Cell>> cells;
+  for (const CellSolid& solid : entity.solids())
+    cells.emplace_back(&solid, solid.cell(first_box(solid.bounds())));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto [solid, cell] = cells[i];
+    const CellLook look = solid->look(cell);
+    if (look.kind == CellLook::Kind::full) return CellFrame(cell.box).middle;
+    if (!look.is_open() || cells.size() >= most_cells_of_search) continue;
+    const std::vector<Bounds> parts = halves_of(cell.box);
+    if (parts.size() == 1) continue;
+    for (const Bounds& part : parts)
+      cells.emplace_back(solid, Cell{part, look.program ? look.program : cell.program});
+  }
+  return {};
+}
+
+/// Says whether solids that are at no distance overlap.
+void look_for_overlap(const Entity& a, const Entity& b, Clearance& found) {
+  if (found.overlap || found.distance.lower > 0) return;
+  const std::optional<Vec3> common = inner_point(EntityCells(a ^ b));
+  if (common) found = {.distance = {0, 0}, .on_a = *common, .on_b = *common, .overlap = true};
+}
+
 [[noreturn]] void throw_no_points() {
   throw Error(ErrorCode::invalid_argument, "a solid without points is at no distance");
 }
@@ -326,7 +352,9 @@ Clearance clearance(const Entity& a, const Entity& b, const MeasureOptions& opti
     cells_a.check_bounded();
     cells_b.check_bounded();
     if (!cells_a.has_points() || !cells_b.has_points()) core::throw_no_points();
-    return core::PairSearch(cells_a, cells_b, options).run();
+    Clearance found = core::PairSearch(cells_a, cells_b, options).run();
+    core::look_for_overlap(a, b, found);
+    return found;
   });
 }
 

@@ -219,6 +219,18 @@ TEST_CASE("measuring") {
   check_every_failure([&] { return crt_entity_bounds(part.get(), lower, upper); });
   std::int8_t side = 0;
   check_every_failure([&] { return crt_entity_contains(part.get(), lower, 0, 1, &side); });
+  double distance = 0;
+  check_every_failure(
+      [&] { return crt_entity_distance(part.get(), upper, 0, 1, &distance, nullptr, 0); });
+  const EntityHandle apart = box({4, 0, 0}, {5, 1, 1});
+  crt_interval clearance;
+  check_every_failure(
+      [&] { return crt_entity_clearance(part.get(), apart.get(), 1, &clearance, lower, upper); });
+  check_every_failure(
+      [&] { return crt_entity_thickness(apart.get(), 1, &clearance, lower, upper); });
+  crt_entity* const both[2] = {a.get(), b.get()};
+  std::size_t count = 0;
+  check_every_failure([&] { return crt_interference(both, 2, 1, 0, nullptr, 0, &count); });
 }
 
 TEST_CASE("putting a scene together and copying it") {
