@@ -75,6 +75,7 @@ class PieceProver::Curve {
       lower[other_] = std::min(lower[other_], end[other_]);
       upper[other_] = std::max(upper[other_], end[other_]);
     }
+    narrow_by_signs(part, lower, upper);
     part.lower = plane_point(lower);
     part.upper = plane_point(upper);
     const std::array<Interval, 2> slopes = slopes_in(part.lower, part.upper);
@@ -152,6 +153,28 @@ class PieceProver::Curve {
           x((part.to.x - part.from.x) / length),
           y((part.to.y - part.from.y) / length) {}
   };
+
+  /// Where slopes allow for much more than the part's length, lines beside it along the axis may
+  /// surely not be crossed: the function has the sign there that it has beyond the curve.
+  void narrow_by_signs(const Part& part, AxisPair& lower, AxisPair& upper) const {
+    const double length = distance_between(part.from, part.to);
+    if (upper[other_] - lower[other_] <= 4 * length) return;
+    const AxisPair from = coordinates(part.from);
+    const AxisPair to = coordinates(part.to);
+    const bool grows = part.slopes[other_].lo > 0;
+    const auto is_beyond = [&](double place, bool is_positive) {
+      AxisPair begin = lower;
+      AxisPair end = upper;
+      begin[other_] = end[other_] = place;
+      const Interval value = looks_.solid().value(
+          face_, intervals_of(grid().box(plane_point(begin), plane_point(end))));
+      return is_positive ? value.lo > 0 : value.hi < 0;
+    };
+    const double low = std::min(from[other_], to[other_]) - length;
+    const double high = std::max(from[other_], to[other_]) + length;
+    if (low > lower[other_] && is_beyond(low, !grows)) lower[other_] = low;
+    if (high < upper[other_] && is_beyond(high, grows)) upper[other_] = high;
+  }
 
   const BoundaryGrid& grid() const { return looks_.grid(); }
   static double diagonal(const PlanePoint& lower, const PlanePoint& upper) {

@@ -124,7 +124,7 @@ class ContourFit {
   }
 
   std::optional<FittedContour> whole_circle(bool has_corner) const {
-    if (const auto circle = fit_circle(points_, {.points = exact_, .between = tolerance_}))
+    if (auto circle = fit_circle(points_, {.points = exact_, .between = tolerance_}))
       return circle;
     if (has_corner) return {};
     return fit_circle(points_, {.points = tolerance_, .between = tolerance_});

@@ -145,7 +145,7 @@ class SectionSearch {
       std::vector<BoundaryLoop> narrow;
       for (const BoundaryLoop& line : boundary.loops) {
         BoundaryLoop loop = in_drawing(line);
-        double proved = 0;
+        double proved = std::min(boundary.deviation, 0.75 * question_.deviation);
         for (const BoundaryPoint& point : loop) {
           if (point.surface != no_surface) proved = std::max(proved, point.deviation);
         }
