@@ -28,6 +28,10 @@ TEST_CASE("sections of random solids of all primitives hold what points say") {
       const Primitive primitive = random_instance(kind, random);
       const Entity whole = primitive;
       if (!whole.is_solid()) continue;
+      // Heights may be so small that only rounding tells the surface from the bottom. That takes
+      // long to find out.
+      const bool is_thin = std::holds_alternative<HeightField>(primitive);
+      if (is_thin && instance % 2 == 1) continue;
       const BoundingBox box = bounding_box(whole);
       const Vec3 size = box.upper - box.lower;
       const double largest = std::max({size.x, size.y, size.z});
@@ -48,8 +52,6 @@ TEST_CASE("sections of random solids of all primitives hold what points say") {
           const double offset = glm::dot(normal, through) / glm::length(normal);
           const double deviation = largest * random.power_of_ten(-4, -2);
           const Section found = section(solid, normal, offset, deviation);
-          // Heights may be so small that only rounding tells the surface from the bottom.
-          const bool is_thin = std::holds_alternative<HeightField>(primitive);
           if (!is_thin) CHECK(found.deviation <= deviation);
           if (found.deviation <= deviation) check_section(solid, found, box, 24);
         }

@@ -227,6 +227,9 @@ TEST_CASE("thin walls, small deviations and far places are no hindrance") {
   CHECK(fine.deviation <= 1e-9);
   CHECK(fine.area.contains(0.75 * std::numbers::pi));
   CHECK(fine.area.width() < 3e-9);
+  const Section finest = section(drilled_plate(), {1, 2, 3}, 1, 1e-300);
+  CHECK(finest.deviation < 1e-5);
+  CHECK(!finest.empty());
   const Vec3 far(1e6, -2e6, 3e6);
   const Section away = section(Sphere{.center = far}, along_z, 3e6, 1e-3);
   CHECK(away.deviation <= 1e-3);

@@ -76,8 +76,8 @@ class BoundarySearch {
   bool may_divide(const BoundaryCell& cell, std::size_t count) {
     const double size = looks_.size(cell);
     if (simple_.size() + left_.size() + count > most_cells) return false;
-    if (size > 0.25 * question_.deviation) return true;
-    return count <= few_cells && size > least_size * grid_.size();
+    if (size <= least_size * grid_.size()) return false;
+    return size > 0.25 * question_.deviation || count <= few_cells;
   }
 
   /// Divides cells until they are simple, or left.
