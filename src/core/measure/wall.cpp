@@ -62,8 +62,7 @@ class ChordFinder {
       const double size = largest_component(slope);
       if (!(size > 0) || !std::isfinite(size)) return {};
       const Vec3 scaled = slope / size;
-      place -=
-          scaled * ((jet.value.middle()) / size / glm::dot(scaled, scaled));
+      place -= scaled * ((jet.value.middle()) / size / glm::dot(scaled, scaled));
     }
     if (!Bounds{place, place}.finite()) return {};
     return along(place, is_turned ? slope : -slope, most);

@@ -100,7 +100,8 @@ const FacePull* SurfacePlaces::nearest(std::span<const FacePull> pulls, double& 
   for (std::size_t i = 0; i < pulls.size(); ++i) {
     const std::uint32_t bit = 1U << order[i]->face;
     for (std::uint32_t some = passed;; some = (some - 1) & passed) {
-      if (node_.look.is_inside(negative ^ bit ^ some) != here) {
+      if (node_.look.faces[order[i]->face].is_surface &&
+          node_.look.is_inside(negative ^ bit ^ some) != here) {
         distance = std::abs(order[i]->distance);
         return order[i];
       }
