@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <unordered_map>
 
 #include "core/geometry/face_functions.hpp"
 #include "core/math/float_environment.hpp"
@@ -172,18 +173,25 @@ class WallSearch {
     const CellTree::Node& a = tree_.node(number_a);
     const CellTree::Node& b = tree_.node(number_b);
     if (!a.look.is_open() || !b.look.is_open()) return;
+    const double apart = glm::length(way_between(a.cell.box, b.cell.box));
+    if (apart >= search_.most()) return;
     const double off = distance_rounding * std::max(largest_of(a.cell.box), largest_of(b.cell.box));
-    double least = infinity;
+    double least = apart;
     if (a.look.kind == CellLook::Kind::crossed && b.look.kind == CellLook::Kind::crossed) {
-      const std::vector<WallFace> faces_b = wall_faces_of(b.look);
-      for (const WallFace& face_a : wall_faces_of(a.look))
-        for (const WallFace& face_b : faces_b)
+      least = infinity;
+      for (const WallFace& face_a : faces_of(number_a))
+        for (const WallFace& face_b : faces_of(number_b))
           if (may_be_wall(a.cell.box, face_a, b.cell.box, face_b, angle_))
             least = std::min(least, least_between(a.cell.box, face_a, b.cell.box, face_b));
-    } else {
-      least = glm::length(way_between(a.cell.box, b.cell.box));
     }
     if (least < infinity) search_.add({number_a, number_b, std::max(0.0, least - off)});
+  }
+
+  /// Returns the faces of a node, which are found once. The list is there as long as the search.
+  const std::vector<WallFace>& faces_of(std::uint32_t number) {
+    const auto [place, is_new] = faces_.try_emplace(number);
+    if (is_new) place->second = wall_faces_of(tree_.node(number).look);
+    return place->second;
   }
 
   static double largest_of(const Bounds& box) {
@@ -214,7 +222,7 @@ class WallSearch {
       const CellTree::Node& node = tree_.node(number);
       const ChordFinder finder(solids_[node.object], angle_);
       const CellFrame frame(node.cell.box);
-      for (const WallFace& face : wall_faces_of(node.look)) {
+      for (const WallFace& face : faces_of(number)) {
         // A face of a cell is asked once, and its parts are asked when the cell is divided.
         if (!(open.least < search_.most()) || asked_.size() > 64 + steps_ / 8) return;
         if (!asked_.emplace(number, face.face->surface, face.is_turned).second) continue;
@@ -244,6 +252,7 @@ class WallSearch {
   double size_;
   WallAngle angle_;
   std::size_t steps_ = 0;
+  std::unordered_map<std::uint32_t, std::vector<WallFace>> faces_;  ///< of nodes
   std::set<std::tuple<std::uint32_t, std::uint64_t, bool>> asked_;  ///< nodes, surfaces, sides
   NearestSearch<OpenWall> search_;
   Chord best_;
