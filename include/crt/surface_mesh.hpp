@@ -8,6 +8,8 @@
 
 #include <array>
 #include <crt/color.hpp>
+#include <crt/entity.hpp>
+#include <crt/measure.hpp>
 #include <crt/settings.hpp>
 #include <crt/vec.hpp>
 #include <cstddef>
@@ -31,6 +33,23 @@ struct SurfaceMesh {
   /// scene units. That is proved; it is infinite where it is not.
   double deviation = std::numeric_limits<double>::infinity();
 };
+
+/// Makes a mesh of a solid's surface that is nowhere farther from it than the deviation, which is
+/// in scene units and above 0. Corners of triangles lie on the surface, and sharp edges of the
+/// solid are edges of triangles, but for rounding. Of the options the width is not used. The mesh
+/// is the same, to the last bit, for any number of threads and on any machine, unless time ends the
+/// search. That also ends after about two million cells. Then the mesh is as good as it is, and its
+/// deviation infinite. So it is where surfaces touch without crossing, or a wall is thinner than
+/// the deviation, as far as no cell tells its sides apart. Throws Error as volume() does.
+SurfaceMesh tessellate(const Entity& entity, double deviation, const MeasureOptions& options = {});
+
+/// Returns a deviation that fits the size of solids: a thousandth of the longest side of the box
+/// around all of them that have one. Throws Error as bounding_box() does.
+double usual_deviation(std::span<const Entity> entities);
+
+/// Returns a colour for all of an entity, as files have it: that of its first part, with channels
+/// cut to [0, 1]. There is none where that has no material or a pattern.
+std::optional<Color> plain_color(const Entity& entity);
 
 /// Names the formats that surfaces are written in.
 enum class SurfaceMeshFormat {

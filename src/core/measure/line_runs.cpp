@@ -56,7 +56,7 @@ class LineDivision {
     append(
         {{.from = from, .to = to, .kind = kind_of(look)}, look.program ? look.program : program});
   }
-  /// Of what is known, neighbours of one kind become one run.
+  /// Appends a part, or makes the last run longer where both are known and of one kind.
   void append(OpenRun&& part) {
     const bool is_known = part.run.kind != LineRun::Kind::open;
     if (is_known && !runs_.empty() && runs_.back().run.kind == part.run.kind) {
