@@ -23,14 +23,15 @@
 
 namespace crt {
 
-/// A SurfaceMesh is the surface of a solid as triangles.
+/// A SurfaceMesh is the surface of a solid as triangles. One that tessellate() makes is closed: at
+/// each edge of a triangle lies one other, which has it the other way.
 struct SurfaceMesh {
   std::vector<Vec3> positions;  ///< the corners, each once, in scene units
-  /// Each has the places of its corners a, b and c. The cross product of b - a and c - a points
-  /// out of the solid: in a right-handed space they are counter-clockwise from outside.
+  /// Each has the places of its corners a, b and c. The cross product of b - a and c - a points out
+  /// of the solid: in a right-handed space they are counter-clockwise from outside.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// No point of the triangles is farther from the surface, and none of the surface from them, in
-  /// scene units. That is proved; it is infinite where it is not.
+  /// Each point of the solid's surface is surely within this distance of a triangle, and each point
+  /// of a triangle within it of the surface. It is infinite if that is not proved.
   double deviation = std::numeric_limits<double>::infinity();
 };
 

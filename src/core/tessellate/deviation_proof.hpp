@@ -1,0 +1,50 @@
+// It is proved that each point of a mesh has a point of the solid's surface within a distance, and
+// each point of the surface one of the mesh.
+//
+// Of a triangle: its copy moved inwards by the distance is in the solid, and the one moved outwards
+// is not. So on the way from the one to the other, through each of its points, there is surface. Of
+// a cell: what the linear bounds of its faces leave open as surface is covered by triangles that
+// are near enough.
+#pragma once
+
+#include <vector>
+
+#include "core/tessellate/cell_partition.hpp"
+#include "core/tessellate/dual_mesh.hpp"
+#include "core/tessellate/triangle_boxes.hpp"
+
+namespace crt::core {
+
+class DeviationProof {
+ public:
+  /// What is given must outlive it.
+  DeviationProof(const CellSolid& solid, const CellPartition& partition, const DualMesh& mesh,
+                 double deviation)
+      : solid_(solid), partition_(partition), mesh_(mesh), deviation_(deviation), boxes_(mesh) {}
+
+  double deviation() const { return deviation_; }
+  /// Returns whether a triangle of the mesh, or one between some corners, is surely near the
+  /// surface.
+  bool is_near_surface(std::uint32_t triangle) const;
+  bool is_near_surface(const std::array<const DualVertex*, 3>& corners) const;
+  /// Guesses whether it is worth while to ask so.
+  bool may_be_near_surface(const std::array<const DualVertex*, 3>& corners) const;
+  /// Returns whether what is surface in a cell is surely near a triangle.
+  bool is_near_mesh(std::uint32_t cell) const;
+  /// Appends the triangles that may be near what is in a cell.
+  void find_near(std::uint32_t cell, std::vector<std::uint32_t>& triangles) const;
+
+ private:
+  bool is_small(const std::array<const DualVertex*, 3>& corners, double distance) const;
+  bool is_all(const FlatTriangle& triangle, bool inside,
+              const std::shared_ptr<const OpenProgram>& program, int halvings) const;
+  bool is_near_mesh(const Cell& cell, std::span<const std::uint32_t> near, int halvings) const;
+
+  const CellSolid& solid_;
+  const CellPartition& partition_;
+  const DualMesh& mesh_;
+  double deviation_;
+  TriangleBoxes boxes_;
+};
+
+}  // namespace crt::core
