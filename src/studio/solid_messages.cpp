@@ -31,7 +31,7 @@ json number_json(double number) {
 json interval_json(const Interval& interval) {
   return {number_json(interval.lower), number_json(interval.upper)};
 }
-json corner_json(const Vec3& corner) {
+json bound_json(const Vec3& corner) {
   return {number_json(corner.x), number_json(corner.y), number_json(corner.z)};
 }
 
@@ -45,8 +45,8 @@ json measures_json(const View& view, std::size_t entity, const std::function<boo
                  {"revision", view.revision.number},
                  {"unit", schema::script_name_of(view.original->settings.unit)}};
   const BoundingBox bounds = tight_bounding_box(solid, options);
-  result["lower"] = corner_json(bounds.lower);
-  result["upper"] = corner_json(bounds.upper);
+  result["lower"] = bound_json(bounds.lower);
+  result["upper"] = bound_json(bounds.upper);
   try {
     const MassProperties mass = mass_properties(solid, options);
     result["volume"] = interval_json(mass.volume);

@@ -34,7 +34,15 @@ namespace {
 constexpr double exact_angle = 1e-5;
 
 /// The search is left after so many pairs: some seconds.
-constexpr std::size_t most_pairs_of_walls = std::size_t{1} << 17U;
+constexpr std::size_t most_pairs_of_walls = std::size_t{1} << 19U;
+
+/// A chord takes as long to find as many pairs take to be looked at. So there are so many at first,
+/// and then one for so many pairs.
+constexpr std::size_t most_chords_at_first = 256;
+constexpr std::size_t steps_of_chord = 256;
+
+/// The ends of chords are known to this share of the longest that is looked for.
+constexpr double ends_of_chords = 0x1p-36;
 
 /// A Chord is a piece of a line in a solid from side to side.
 struct Chord {
@@ -74,7 +82,8 @@ class ChordFinder {
   std::optional<Chord> along(const Vec3& place, const Vec3& direction, double most) const {
     const SolidLine line(place, direction);
     const double outside = 0x1p-20 * most;
-    const std::vector<LineRun> runs = runs_of_line(solid_, line, -outside, most);
+    const std::vector<LineRun> runs =
+        runs_of_line(solid_, line, -outside, most, ends_of_chords * most);
     for (std::size_t i = 1; i + 1 < runs.size(); ++i) {
       if (runs[i].kind != LineRun::Kind::full) continue;
       const LineRun& first = runs[i - 1];
@@ -209,7 +218,7 @@ class WallSearch {
       const Bounds between{(1 - share) * box_a.lower + share * box_b.lower,
                            (1 - share) * box_a.upper + share * box_b.upper};
       const Vec3 off = Vec3(distance_rounding * std::max(largest_of(box_a), largest_of(box_b)));
-      if (solid.look(solid.cell({between.lower - off, between.upper + off})).kind ==
+      if (solid.look(tree_.cell(a.object, {between.lower - off, between.upper + off})).kind ==
           CellLook::Kind::empty)
         return true;
     }
@@ -224,7 +233,9 @@ class WallSearch {
       const CellFrame frame(node.cell.box);
       for (const WallFace& face : faces_of(number)) {
         // A face of a cell is asked once, and its parts are asked when the cell is divided.
-        if (!(open.least < search_.most()) || asked_.size() > 64 + steps_ / 8) return;
+        if (!(open.least < search_.most()) ||
+            asked_.size() > most_chords_at_first + steps_ / steps_of_chord)
+          return;
         if (!asked_.emplace(number, face.face->surface, face.is_turned).second) continue;
         offer(finder.find(*face.face, face.is_turned, middle_of(frame, *face.face), most()));
       }
