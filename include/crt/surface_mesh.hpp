@@ -23,8 +23,7 @@
 
 namespace crt {
 
-/// A SurfaceMesh is the surface of a solid as triangles. One that tessellate() makes is closed: at
-/// each edge of a triangle lies one other, which has it the other way.
+/// A SurfaceMesh is the surface of a solid as triangles.
 struct SurfaceMesh {
   std::vector<Vec3> positions;  ///< the corners, each once, in scene units
   /// Each has the places of its corners a, b and c. The cross product of b - a and c - a points out
@@ -35,13 +34,14 @@ struct SurfaceMesh {
   double deviation = std::numeric_limits<double>::infinity();
 };
 
-/// Makes a mesh of a solid's surface that is nowhere farther from it than the deviation, which is
-/// in scene units and above 0. Corners of triangles lie on the surface, and sharp edges of the
-/// solid are edges of triangles, but for rounding. Of the options the width is not used. The mesh
-/// is the same, to the last bit, for any number of threads and on any machine, unless time ends the
-/// search. That also ends after about two million cells. Then the mesh is as good as it is, and its
-/// deviation infinite. So it is where surfaces touch without crossing, or a wall is thinner than
-/// the deviation, as far as no cell tells its sides apart. Throws Error as volume() does.
+/// Makes a mesh of a solid's surface that is nowhere farther from it than the deviation, in scene
+/// units and above 0. The mesh is closed: at each edge of a triangle lies one other. Corners lie on
+/// the surface, and sharp edges of the solid are edges of triangles, but for rounding. Of the
+/// options the width is not used. The mesh is the same, to the last bit, for any number of threads
+/// and on any machine, unless time ends the search. That also ends after about two million boxes.
+/// Then the mesh is as good as it is, and its deviation infinite. So it is where surfaces touch
+/// without crossing, or where nothing is known of them, as of Custom shapes. Throws Error as
+/// volume() does. Any thread may call it.
 SurfaceMesh tessellate(const Entity& entity, double deviation, const MeasureOptions& options = {});
 
 /// Returns a deviation that fits the size of solids: a thousandth of the longest side of the box

@@ -16,7 +16,7 @@ Cells side_of_cut(std::size_t cut, bool is_below, Cells all) {
 }
 
 double middle_of(const Interval& range) {
-  return 0.5 * range.lo + 0.5 * range.hi;
+  return range.middle();
 }
 
 /// A RoughCut is a cut in rounded arithmetic.

@@ -29,6 +29,8 @@ struct Interval {
   bool contains(double x) const { return lo <= x && x <= hi; }
   bool is_point() const { return lo == hi; }
   double width() const { return hi - lo; }
+  /// Returns the number in the middle, rounded.
+  double middle() const { return 0.5 * lo + 0.5 * hi; }
   double magnitude() const { return std::max(-lo, hi); }
 };
 

@@ -75,7 +75,7 @@ PatchSeries of_small(const PatchSeries& a, const std::array<double, degree + 1>&
 
 PatchSeries PatchSeries::of(const Interval& constant) {
   PatchSeries result;
-  const double middle = 0.5 * constant.lo + 0.5 * constant.hi;
+  const double middle = constant.middle();
   result.terms[0] = middle;
   result.error = rounded_up(std::max(constant.hi - middle, middle - constant.lo));
   if (constant.is_point()) result.error = 0;

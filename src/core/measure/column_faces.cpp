@@ -58,9 +58,9 @@ class HeightSearch {
       place[at(c)] = Interval::of(middle_);
       const Jet jet = solid_.value(face_, jets_of(place));
       for (int axis = 0; axis < 3; ++axis)
-        slopes_[axis] = 0.5 * jet.slope[at(axis)].lo + 0.5 * jet.slope[at(axis)].hi;
+        slopes_[axis] = jet.slope[at(axis)].middle();
       if (slopes_[c] == 0) return false;
-      const double step_by = (0.5 * jet.value.lo + 0.5 * jet.value.hi) / slopes_[c];
+      const double step_by = (jet.value.middle()) / slopes_[c];
       if (!std::isfinite(step_by)) return false;
       // Of a face that is far beyond an end no more has to be known.
       middle_ = std::clamp(middle_ - step_by, frame_.box.lower[c] - 2 * frame_.frame.half[c],

@@ -66,7 +66,7 @@ class MassSearch {
       const std::size_t some = count_to_divide(cells);
       // The surface is about as large as that of the box around the solid.
       question_.height_tolerance = options_.relative_width *
-                                   (0.5 * all.volume.lo + 0.5 * all.volume.hi) /
+                                   (all.volume.middle()) /
                                    (2 * surface_of_box_);
       if (some == 0) break;
       divide(cells, some);

@@ -59,11 +59,11 @@ struct NearFace {
 
 CellFace linear_face(const Interval& at_middle, const Jet& jet, const Vec3& half) {
   CellFace face{.slopes = jet.slope};
-  face.value = 0.5 * at_middle.lo + 0.5 * at_middle.hi;
+  face.value = at_middle.middle();
   double error = at_middle.width();
   for (int axis = 0; axis < 3; ++axis) {
     const Interval& slope = jet.slope[static_cast<std::size_t>(axis)];
-    const double middle = 0.5 * slope.lo + 0.5 * slope.hi;
+    const double middle = slope.middle();
     face.slope[axis] = middle * half[axis];
     error += (slope.width() + 0x1p-51 * std::abs(middle)) * half[axis];
   }

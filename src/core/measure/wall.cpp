@@ -21,6 +21,7 @@
 #include "core/measure/measure_clock.hpp"
 #include "core/measure/nearest.hpp"
 #include "core/measure/wall_faces.hpp"
+#include "crt/elementary.hpp"
 #include "crt/error.hpp"
 #include "crt/measure.hpp"
 
@@ -66,13 +67,12 @@ class ChordFinder {
       const Jet jet = solid_.value(face, jets_of(known_point(place)));
       for (int axis = 0; axis < 3; ++axis) {
         const Interval& one = jet.slope[static_cast<std::size_t>(axis)];
-        slope[axis] = 0.5 * one.lo + 0.5 * one.hi;
+        slope[axis] = one.middle();
       }
       const double size = largest_component(slope);
       if (!(size > 0) || !std::isfinite(size)) return {};
       const Vec3 scaled = slope / size;
-      place -=
-          scaled * ((0.5 * jet.value.lo + 0.5 * jet.value.hi) / size / glm::dot(scaled, scaled));
+      place -= scaled * ((jet.value.middle()) / size / glm::dot(scaled, scaled));
     }
     if (!Bounds{place, place}.finite()) return {};
     return along(place, is_turned ? slope : -slope, most);
@@ -134,8 +134,9 @@ class WallSearch {
         options_(options),
         clock_(options.measure),
         size_(glm::length(CellFrame(entity.bounds()).half)) {
-    const double exact = std::tan(exact_angle);
-    const double loose = std::tan(std::max(exact_angle, options.angle * std::numbers::pi / 180));
+    const double exact = elementary::tan(exact_angle);
+    const double loose =
+        elementary::tan(std::max(exact_angle, options.angle * std::numbers::pi / 180));
     angle_ = {.exact = exact * exact, .loose = loose * loose};
   }
 

@@ -16,8 +16,7 @@ constexpr std::size_t most_nodes = std::size_t{1} << 21;
 constexpr std::size_t nodes_of_task = 32;
 
 Vec3 middle_of(const std::array<Interval, 3>& slopes) {
-  return {0.5 * slopes[0].lo + 0.5 * slopes[0].hi, 0.5 * slopes[1].lo + 0.5 * slopes[1].hi,
-          0.5 * slopes[2].lo + 0.5 * slopes[2].hi};
+  return {slopes[0].middle(), slopes[1].middle(), slopes[2].middle()};
 }
 
 /// Returns the least that a face's function grows along a direction.

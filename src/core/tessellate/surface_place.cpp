@@ -8,10 +8,6 @@ namespace crt::core {
 
 namespace {
 
-double middle_of(const Interval& a) {
-  return 0.5 * a.lo + 0.5 * a.hi;
-}
-
 /// Returns the shortest step to the tangent planes of all faces, or to those of them that are
 /// surely not parallel to others before.
 Vec3 step_to(std::span<const FacePull> pulls) {
@@ -56,7 +52,7 @@ bool SurfacePlaces::is_inside(const Vec3& place) const {
     return solid_.look({{place, place}, node_.look.program}).kind == CellLook::Kind::full;
   std::uint32_t negative = 0;
   for (std::size_t i = 0; i < node_.look.faces.size(); ++i) {
-    if (middle_of(solid_.value(node_.look.faces[i], known_point(place))) < 0) negative |= 1U << i;
+    if (solid_.value(node_.look.faces[i], known_point(place)).middle() < 0) negative |= 1U << i;
   }
   return node_.look.is_inside(negative);
 }
@@ -77,11 +73,11 @@ std::vector<FacePull> SurfacePlaces::pulls_at(const Vec3& place) const {
   pulls.reserve(node_.look.faces.size());
   for (std::size_t i = 0; i < node_.look.faces.size(); ++i) {
     const Jet jet = solid_.value(node_.look.faces[i], jets_of(known_point(place)));
-    Vec3 slope(middle_of(jet.slope[0]), middle_of(jet.slope[1]), middle_of(jet.slope[2]));
+    Vec3 slope(jet.slope[0].middle(), jet.slope[1].middle(), jet.slope[2].middle());
     const double length = glm::length(slope);
     if (!(length > 0 && length < infinity)) return {};
     const double sign = sign_of_face(node_.look, i) < 0 ? -1 : 1;
-    pulls.push_back({i, slope * (sign / length), sign * middle_of(jet.value) / length});
+    pulls.push_back({i, slope * (sign / length), sign * jet.value.middle() / length});
   }
   return pulls;
 }

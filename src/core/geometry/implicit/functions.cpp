@@ -14,7 +14,7 @@ FieldValues<3> values_in(const FieldProgram& program, const PointOf<Interval>& b
   std::array<double, 3> reach{};
   for (std::size_t i = 0; i < 3; ++i) {
     if (!(box[i].width() < infinity)) return {.may_be_undefined = true};
-    middle[i] = std::clamp(0.5 * box[i].lo + 0.5 * box[i].hi, box[i].lo, box[i].hi);
+    middle[i] = std::clamp(box[i].middle(), box[i].lo, box[i].hi);
     reach[i] = rounded_up(std::max(middle[i] - box[i].lo, box[i].hi - middle[i]));
   }
   const auto coordinate = [&](std::size_t axis) {

@@ -56,9 +56,9 @@ ImplicitShape::Slope ImplicitShape::slope_at(const Vec3& place) const {
     std::array<Interval, 3> direction{};
     direction[static_cast<std::size_t>(axis)] = Interval::of(1);
     const FieldLine::Values values = FieldLine(*program_, at, direction).evaluate(0, 0);
-    const double slope = 0.5 * values.slope.lo + 0.5 * values.slope.hi;
+    const double slope = values.slope.middle();
     result.gradient[axis] = std::isfinite(slope) ? slope : 0;
-    result.value = 0.5 * values.middle.lo + 0.5 * values.middle.hi;
+    result.value = values.middle.middle();
   }
   return result;
 }
