@@ -67,6 +67,7 @@ from .rays import (
 )
 from .rendering import Prepared
 from .scenes import Scene
+from .surface_meshes import SurfaceMesh, write_surface_meshes
 from .values import (
     AmbientModel,
     ApertureShape,
@@ -160,6 +161,7 @@ __all__ = [
     "Sphere",
     "Status",
     "Superellipsoid",
+    "SurfaceMesh",
     "Thickness",
     "ToneMap",
     "Torus",
@@ -180,4 +182,5 @@ __all__ = [
     "text_contours",
     "union",
     "version",
+    "write_surface_meshes",
 ]

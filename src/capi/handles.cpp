@@ -59,3 +59,10 @@ crt_profile* crt_profile_retain(crt_profile* profile) {
 void crt_profile_release(crt_profile* profile) {
   release(profile);
 }
+
+crt_surface_mesh* crt_surface_mesh_retain(crt_surface_mesh* mesh) {
+  return retain(mesh);
+}
+void crt_surface_mesh_release(crt_surface_mesh* mesh) {
+  release(mesh);
+}

@@ -16,6 +16,7 @@
 #include "crt/primitives.hpp"
 #include "crt/scene.hpp"
 #include "crt/script.hpp"
+#include "crt/surface_mesh.hpp"
 
 namespace crt::capi {
 
@@ -100,6 +101,11 @@ struct crt_diagnostics : crt::capi::Counted {
 struct crt_profile : crt::capi::Counted {
   std::vector<crt::Contour> contours;
   bool is_drawn = false;  ///< whether pieces can be added to the last contour
+};
+
+struct crt_surface_mesh : crt::capi::Counted {
+  explicit crt_surface_mesh(crt::SurfaceMesh new_value) : value(std::move(new_value)) {}
+  crt::SurfaceMesh value;
 };
 
 struct crt_file_content {
