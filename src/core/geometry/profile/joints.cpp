@@ -28,14 +28,22 @@ Joint joint_of(const Profile& profile, std::uint32_t piece, std::uint32_t next) 
 }
 
 Joint joint_of(const Profile& profile, std::uint32_t piece) {
+  return joint_of(profile, piece, piece_after(profile, piece));
+}
+
+std::uint32_t piece_after(const Profile& profile, std::uint32_t piece) {
   const auto pieces = profile.pieces();
-  std::uint32_t next = piece + 1;
-  if (next == pieces.size() || pieces[next].from != pieces[piece].to) {
-    // It is the last of its contour.
-    next = piece;
-    while (next > 0 && pieces[next - 1].to == pieces[next].from) --next;
-  }
-  return joint_of(profile, piece, next);
+  if (piece + 1 < pieces.size() && pieces[piece + 1].from == pieces[piece].to) return piece + 1;
+  // It is the last of its contour.
+  while (piece > 0 && pieces[piece - 1].to == pieces[piece].from) --piece;
+  return piece;
+}
+
+std::uint32_t piece_before(const Profile& profile, std::uint32_t piece) {
+  const auto pieces = profile.pieces();
+  if (piece > 0 && pieces[piece - 1].to == pieces[piece].from) return piece - 1;
+  while (piece + 1 < pieces.size() && pieces[piece + 1].from == pieces[piece].to) ++piece;
+  return piece;
 }
 
 }  // namespace crt::core

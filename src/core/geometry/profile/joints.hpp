@@ -29,6 +29,10 @@ struct Joint {
   Vec3 along{0, 0, 0};
 };
 
+/// Returns the piece after one in its contour, or before it.
+std::uint32_t piece_after(const Profile& profile, std::uint32_t piece);
+std::uint32_t piece_before(const Profile& profile, std::uint32_t piece);
+
 /// Returns the joint between two pieces that follow one another.
 Joint joint_of(const Profile& profile, std::uint32_t piece, std::uint32_t next);
 /// Returns that at the end of a piece.

@@ -192,14 +192,20 @@ Cut RegionLook::cut_of(std::uint32_t piece) const {
 }
 
 void RegionLook::look_at_joint(NearFaces& near) const {
-  if (near_count_ != 2) return;
   const auto pieces = profile_.pieces();
-  const std::uint32_t a = near_[0];
-  const std::uint32_t b = near_[1];
-  // Of two pieces that make a contour by themselves, one end may be far enough.
-  if (pieces[a].to == pieces[b].from) look_at_joint(a, b, near);
-  if (near.kind == NearFaces::Kind::unknown && pieces[b].to == pieces[a].from)
-    look_at_joint(b, a, near);
+  const auto try_at = [&](std::uint32_t piece, std::uint32_t next) {
+    if (near.kind == NearFaces::Kind::unknown && pieces[piece].to == pieces[next].from)
+      look_at_joint(piece, next, near);
+  };
+  // Of two pieces that make a contour by themselves, or of one beside a corner, one end may be far
+  // enough.
+  if (near_count_ == 1) {
+    try_at(near_[0], piece_after(profile_, near_[0]));
+    try_at(piece_before(profile_, near_[0]), near_[0]);
+  } else if (near_count_ == 2) {
+    try_at(near_[0], near_[1]);
+    try_at(near_[1], near_[0]);
+  }
 }
 
 void RegionLook::look_at_joint(std::uint32_t piece, std::uint32_t next, NearFaces& near) const {
