@@ -151,6 +151,8 @@ typedef struct crt_diagnostics crt_diagnostics;
 typedef struct crt_profile crt_profile;
 /** A crt_section is what a plane cuts out of a solid. It is immutable. Since 1.1. */
 typedef struct crt_section crt_section;
+/** A crt_surface_mesh is the surface of a solid as triangles. It is immutable. Since 1.1. */
+typedef struct crt_surface_mesh crt_surface_mesh;
 
 /** Adds a reference to an entity and returns it. */
 CRT_API crt_entity* crt_entity_retain(crt_entity* entity);
@@ -192,6 +194,11 @@ CRT_API void crt_section_release(crt_section* section);
 CRT_API crt_profile* crt_profile_retain(crt_profile* profile);
 /** Removes a reference. Since 1.1. */
 CRT_API void crt_profile_release(crt_profile* profile);
+
+/** Adds a reference to a surface mesh and returns it. Since 1.1. */
+CRT_API crt_surface_mesh* crt_surface_mesh_retain(crt_surface_mesh* mesh);
+/** Removes a reference. The last one ends what the mesh has lent. Since 1.1. */
+CRT_API void crt_surface_mesh_release(crt_surface_mesh* mesh);
 
 /** @} */
 
@@ -1297,6 +1304,70 @@ CRT_API crt_status crt_section_write(const crt_section* section, const char* pat
  */
 CRT_API crt_status crt_section_write_with(const crt_section* section, const char* path,
                                           int32_t unit, double hatch);
+
+/** @} */
+
+/* ---- surfaces as triangles ------------------------------------------------------------------ */
+
+/** @defgroup surface_meshes Surfaces as triangles
+ * These functions make triangles of a solid's surface, and files of them for slicers and other
+ * programs. Those have a right-handed space: they show left and right exchanged, as CRT does with
+ * their files. Threads: Shared.
+ *
+ * @code{.c}
+ * crt_surface_mesh* surface = NULL;
+ * if (crt_entity_tessellate(entity, 0.01, &surface) == CRT_OK)
+ *   crt_surface_mesh_write(surface, "part.stl");
+ * crt_surface_mesh_release(surface);
+ * @endcode
+ * @{ */
+
+/**
+ * Makes a closed mesh of a solid's surface. Corners lie on the surface, and sharp edges of the
+ * solid are edges of triangles, but for rounding. What has no inside or no end is refused. Since
+ * 1.1.
+ * @param deviation  how far the triangles may be from the surface, and it from them, in scene
+ * units; above 0
+ */
+CRT_API crt_status crt_entity_tessellate(crt_entity* entity, double deviation,
+                                         crt_surface_mesh** out);
+/**
+ * Returns the corners, 3 numbers each, which the mesh lends; NULL for NULL. Since 1.1.
+ * @param vertex_count  gets how many there are; may be NULL
+ */
+CRT_API const double* crt_surface_mesh_positions(const crt_surface_mesh* mesh,
+                                                 size_t* vertex_count);
+/**
+ * Returns the triangles, each the places of 3 corners a, b and c, which the mesh lends; NULL for
+ * NULL. The cross product of b - a and c - a points out of the solid. Since 1.1.
+ * @param triangle_count  gets how many there are; may be NULL
+ */
+CRT_API const uint32_t* crt_surface_mesh_indices(const crt_surface_mesh* mesh,
+                                                 size_t* triangle_count);
+/**
+ * Returns how far triangles and surface are apart at most. That is proved. It is INFINITY where it
+ * could not be, as where surfaces merely touch, or after very many cells; and for NULL. Since 1.1.
+ */
+CRT_API double crt_surface_mesh_deviation(const crt_surface_mesh* mesh);
+/**
+ * Writes a file, all of it or none, in the format that its ending says: .stl (binary), .obj, .ply
+ * (binary), .3mf or .glb (glTF). Numbers are as they are, and a scene unit is a metre. It fails
+ * with CRT_ERROR_UNSUPPORTED for another ending, with CRT_ERROR_LIMIT for more than the format has
+ * room for, and with CRT_ERROR_IO where the file cannot be written. Since 1.1.
+ */
+CRT_API crt_status crt_surface_mesh_write(const crt_surface_mesh* mesh, const char* path);
+/**
+ * Writes a file of several parts, as crt_surface_mesh_write() does. 3MF and glTF have their names,
+ * colours and unit, OBJ their names, and PLY their colours; STL has all triangles. Since 1.1.
+ * @param meshes  the parts, at least one of which has triangles
+ * @param names   NULL, or a name for each, any of which may be NULL
+ * @param colors  NULL, or linear red, green, blue and coverage of each, in [0, 1]
+ * @param unit    a crt_unit: what a scene unit is. Numbers in 3MF are in it, and those of glTF in
+ * metres
+ */
+CRT_API crt_status crt_surface_meshes_write(const crt_surface_mesh* const* meshes, size_t count,
+                                            const char* const* names, const double* colors,
+                                            int32_t unit, const char* path);
 
 /** @} */
 

@@ -26,11 +26,11 @@ namespace crt {
 /// A SurfaceMesh is the surface of a solid as triangles.
 struct SurfaceMesh {
   std::vector<Vec3> positions;  ///< the corners, each once, in scene units
-  /// Each has the places of its corners a, b and c. The cross product of b - a and c - a points
-  /// out of the solid: in a right-handed space they are counter-clockwise from outside.
+  /// Each has the places of its corners a, b and c. The cross product of b - a and c - a points out
+  /// of the solid: in a right-handed space they are counter-clockwise from outside.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// No point of the triangles is farther from the surface, and none of the surface from them, in
-  /// scene units. That is proved; it is infinite where it is not.
+  /// Each point of the solid's surface is surely within this distance of a triangle, and each point
+  /// of a triangle within it of the surface. It is infinite if that is not proved.
   double deviation = std::numeric_limits<double>::infinity();
 };
 
@@ -43,6 +43,14 @@ struct SurfaceMesh {
 /// without crossing, or where nothing is known of them, as of Custom shapes. Throws Error as
 /// volume() does. Any thread may call it.
 SurfaceMesh tessellate(const Entity& entity, double deviation, const MeasureOptions& options = {});
+
+/// Returns a deviation that fits the size of solids: a thousandth of the longest side of the box
+/// around all of them that have one. Throws Error as bounding_box() does.
+double usual_deviation(std::span<const Entity> entities);
+
+/// Returns a colour for all of an entity, as files have it: that of its first part, with channels
+/// cut to [0, 1]. There is none where that has no material or a pattern.
+std::optional<Color> plain_color(const Entity& entity);
 
 /// Names the formats that surfaces are written in.
 enum class SurfaceMeshFormat {

@@ -68,6 +68,7 @@ from .rays import (
 from .rendering import Prepared
 from .scenes import Scene
 from .sections import Section
+from .surface_meshes import SurfaceMesh, write_surface_meshes
 from .values import (
     AmbientModel,
     ApertureShape,
@@ -162,6 +163,7 @@ __all__ = [
     "Sphere",
     "Status",
     "Superellipsoid",
+    "SurfaceMesh",
     "Thickness",
     "ToneMap",
     "Torus",
@@ -182,4 +184,5 @@ __all__ = [
     "text_contours",
     "union",
     "version",
+    "write_surface_meshes",
 ]

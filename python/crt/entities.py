@@ -23,6 +23,7 @@ from ._materials import AnyMaterial, dressed
 from .measures import Clearance, Interval, Mass, Nearest, Overlap, Thickness
 from .rays import points_of
 from .sections import Section
+from .surface_meshes import SurfaceMesh, tessellated
 
 MOST_CALLS = 3  # that a representation shows
 
@@ -217,6 +218,11 @@ class Entity(Handle):
         is no wall. The upper end is the length of a chord that is there. The lower end may be poor
         where curved walls of one thickness are large, and is 0 if there is an apex."""
         return measures.thickness(self._handle, relative_width)
+
+    def tessellate(self, deviation: SupportsFloat) -> SurfaceMesh:
+        """Makes a closed mesh of the solid's surface, which is nowhere farther from it than the
+        deviation, in scene units. Sharp edges of the solid are edges of triangles."""
+        return tessellated(self._handle, deviation)
 
     @property
     def primitive_count(self) -> int:

@@ -66,3 +66,10 @@ crt_section* crt_section_retain(crt_section* section) {
 void crt_section_release(crt_section* section) {
   release(section);
 }
+
+crt_surface_mesh* crt_surface_mesh_retain(crt_surface_mesh* mesh) {
+  return retain(mesh);
+}
+void crt_surface_mesh_release(crt_surface_mesh* mesh) {
+  release(mesh);
+}

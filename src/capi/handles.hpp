@@ -17,6 +17,7 @@
 #include "crt/scene.hpp"
 #include "crt/script.hpp"
 #include "crt/section.hpp"
+#include "crt/surface_mesh.hpp"
 
 namespace crt::capi {
 
@@ -107,6 +108,11 @@ struct crt_section : crt::capi::Counted {
   crt::Section value;
   std::vector<std::size_t> first;  ///< point of each contour, and how many points there are
   std::vector<double> points;
+};
+
+struct crt_surface_mesh : crt::capi::Counted {
+  explicit crt_surface_mesh(crt::SurfaceMesh new_value) : value(std::move(new_value)) {}
+  crt::SurfaceMesh value;
 };
 
 struct crt_file_content {

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
+#include "cli/export_mesh.hpp"
 #include "cli/picture_renderer.hpp"
 #include "cli/reporter.hpp"
 
@@ -47,6 +48,10 @@ void write_code(const ExportRequest& request, Reporter& reporter) {
   const ScriptResult result = run_scene(ScriptSource(request.scene, request.script.limits),
                                         request.script, !to_stream, reporter);
   if (!result.scene) return;
+  if (writes_mesh(request)) return export_mesh(*result.scene, request, reporter);
+  if (request.deviation)
+    throw Error(ErrorCode::invalid_argument,
+                "--deviation is for meshes: give the output an ending such as .stl or .3mf");
   const SourceCode code = code_of(*result.scene, request);
   for (const std::string& warning : code.warnings) reporter.warn(warning);
   if (to_stream && !code.files.empty()) {

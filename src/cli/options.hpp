@@ -169,6 +169,7 @@ struct ExportRequest : CommonRequest {
   std::filesystem::path output;            ///< empty for standard output
   std::optional<SourceLanguage> language;  ///< without it the ending of the output says it
   std::optional<int> entity;               ///< writes this one alone
+  std::optional<double> deviation;         ///< of triangles, in scene units
 };
 
 struct FormatRequest : CommonRequest {

@@ -101,23 +101,36 @@ CommandTable new_table(NewRequest& request) {
 CommandTable export_table(ExportRequest& request) {
   CommandTable table{
       .name = "export",
-      .about = "Writes a script's scene as a program in C++, Python or C, or as a plain script.",
+      .about = "Writes a script's scene as a program, as a plain script, or as triangles.",
       .footer = R"(The program renders the same picture, byte for byte, to the file that its first
 argument names. What makes the scene is a function in it, make_scene(). It has the numbers that the
 script computes, and no loops or macros. Meshes and images are in it as numbers, up to 16 MiB. Those
 of a script go into files beside it.
 
+Files that end in .stl, .obj, .ply, .3mf or .glb get the surfaces of all solids as triangles, which
+are nowhere farther from them than the deviation. Each entity is a part of its own, with its colour
+and the unit of the script's Settings, where the format has that.
+
 Examples:
   crt export scene.crt -o scene.cpp         the ending says the language: .cpp, .py, .c or .crt
   crt export scene.crt --as python          to standard output
-  crt export scene.crt --entity 0 --as c    a function that makes the first entity)",
+  crt export scene.crt --entity 0 --as c    a function that makes the first entity
+  crt export part.crt -o part.3mf --deviation 0.01
+                                            triangles for a slicer)",
       .rows = {}};
   std::vector<OptionRow>& rows = table.rows;
   add_scene_row(rows, request.scene, "the script; - is standard input");
   rows.push_back({.names = "-o,--output",
                   .type = "FILE",
-                  .help = "the program or script (default: standard output)",
+                  .help = "the program, script or mesh (default: standard output)",
                   .take = into_path(request.output)});
+  rows.push_back({.names = "--deviation",
+                  .type = "D",
+                  .help = "how far triangles may be from the surface, in scene units (a thousandth "
+                          "of the longest side of the box around all)",
+                  .take = [&request](const std::string& text) {
+                    request.deviation = parse_positive("--deviation", text);
+                  }});
   rows.push_back({.names = "--as",
                   .type = "cpp|python|c|script",
                   .help = "the language (default: as the ending says, or else cpp)",

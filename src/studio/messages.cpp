@@ -4,6 +4,7 @@
 #include <array>
 #include <crt/error.hpp>
 #include <crt/query.hpp>
+#include <crt/schema_settings.hpp>
 #include <crt/source_code.hpp>
 #include <crt/validate.hpp>
 #include <nlohmann/json.hpp>
@@ -126,6 +127,7 @@ json scene_message(const View& view) {
           {"warnings", view.prepared.warnings()},
           {"isOverridden", view.camera_is_overridden},
           {"readsTime", view.reads_time},
+          {"unit", schema::script_name_of(settings.unit)},
           {"camera",
            {{"position", vector_json(camera.position)},
             {"pointing", vector_json(camera.pointing)},
@@ -243,6 +245,11 @@ json pick_json(const View& view, double x, double y) {
           {"origin", span_json(places, place.origin)}};
 }
 
+std::size_t entity_of_span(const View& view, const json& span) {
+  return entity_within(view, text::whole_number<std::uint32_t>(span.at(0)),
+                       text::whole_number<std::uint32_t>(span.at(1)));
+}
+
 json code_json(const View& view, const json& question) {
   const auto language = question.at("language").get<std::string>();
   const auto found = std::find(languages.begin(), languages.end(), language);
@@ -253,9 +260,7 @@ json code_json(const View& view, const json& question) {
   if (!question.contains("span")) {
     code = source_code(*view.original, options);
   } else {
-    const json& span = question.at("span");
-    const std::size_t entity = entity_within(view, text::whole_number<std::uint32_t>(span.at(0)),
-                                             text::whole_number<std::uint32_t>(span.at(1)));
+    const std::size_t entity = entity_of_span(view, question.at("span"));
     code = source_code(view.original->entities.at(entity), options);
   }
   if (!code.files.empty()) {

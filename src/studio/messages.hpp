@@ -4,6 +4,7 @@
 
 #include <crt/image.hpp>
 #include <crt/language_service.hpp>
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -29,6 +30,10 @@ nlohmann::json format_json(const Analysis& analysis);
 
 /// Answers which entity a place of the picture shows. It is null where there is none.
 nlohmann::json pick_json(const View& view, double x, double y);
+
+/// Returns the first entity that comes from within a piece of the text, or else around it: two
+/// places. Throws what the JSON library throws, and Error (invalid_argument) where there is none.
+std::size_t entity_of_span(const View& view, const nlohmann::json& span);
 
 /// Answers with source code: that of the scene, or of the first entity that comes from a piece of
 /// the text. The question has `language`, and perhaps a `span`. Throws what the JSON library

@@ -10,6 +10,7 @@
 
 #include "studio/machine.hpp"
 #include "studio/messages.hpp"
+#include "studio/solid_messages.hpp"
 #include "studio/view_messages.hpp"
 #include "text/json.hpp"
 
@@ -39,6 +40,8 @@ ViewClient::ViewClient(std::shared_ptr<Connection> connection, int threads)
   });
   on_while_open("machine", [this](const json&) { send(machine_message(machine_state())); });
   on_while_open("picture", [this](const json& message) { picture(message); });
+  on_while_open("measure", [this](const json& message) { measure(message); });
+  on_while_open("surface", [this](const json& message) { surface(message); });
   on_while_open("code", [this](const json& message) { code(message); });
 }
 
@@ -165,6 +168,53 @@ void ViewClient::code(const json& message) {
   const std::shared_ptr<const View> view = renderer_.view();
   if (!view) throw Error(ErrorCode::invalid_argument, "there is no scene yet");
   send({{"type", "answer"}, {"id", id_of(message)}, {"result", code_json(*view, message)}});
+}
+
+/// Answers how much the entity is that comes from a piece of the text. Nothing is known of what has
+/// none, and nothing is said of the entity before once another one is asked about.
+void ViewClient::measure(const json& message) {
+  const json id = id_of(message);
+  const std::shared_ptr<const View> view = renderer_.view();
+  std::optional<std::size_t> entity;
+  try {
+    if (view) entity = entity_of_span(*view, message.at("span"));
+  } catch (const Error&) {
+    // Nothing of the scene comes from there.
+  }
+  const json question = {{"type", "measure"}, {"id", id}};
+  measuring_.start([this, view, entity, question](const NewestTask::GoesOn& goes_on) {
+    answer(question, [&] {
+      return entity && goes_on() ? measures_json(*view, *entity, goes_on) : json(nullptr);
+    });
+  });
+}
+
+/// Sends the surface of the scene, or of an entity, as a file.
+void ViewClient::surface(const json& message) {
+  const json id = id_of(message);
+  const std::shared_ptr<const View> view = renderer_.view();
+  if (!view) throw Error(ErrorCode::invalid_argument, "there is no scene yet");
+  const SurfaceQuestion asked = surface_question_of(*view, message);
+  const json question = {{"type", "surface"}, {"id", id}};
+  exporting_.start([this, view, asked, question](const NewestTask::GoesOn& goes_on) {
+    answer(question, [&] {
+      if (!goes_on()) return json(nullptr);
+      connection_->send_binary(surface_message(*view, asked, goes_on));
+      return json(true);
+    });
+  });
+}
+
+/// Answers a question in another thread, also if that fails. It never throws.
+void ViewClient::answer(const json& question, const std::function<json()>& result) const noexcept {
+  try {
+    send({{"type", "answer"}, {"id", question.at("id")}, {"result", result()}});
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::cancelled) return complain(error.what(), question);
+    answer(question, [] { return json(nullptr); });
+  } catch (const std::exception& error) {
+    complain(error.what(), question);
+  }
 }
 
 }  // namespace crt::studio

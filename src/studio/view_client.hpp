@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "studio/newest_task.hpp"
 #include "studio/picture_frame.hpp"
 #include "studio/renderer.hpp"
 #include "studio/web_server.hpp"
@@ -48,11 +49,18 @@ class ViewClient : public Client {
   void pick(const nlohmann::json& message);
   void picture(const nlohmann::json& message);
   void code(const nlohmann::json& message);
+  void measure(const nlohmann::json& message);
+  void surface(const nlohmann::json& message);
+  void answer(const nlohmann::json& question,
+              const std::function<nlohmann::json()>& result) const noexcept;
 
   const std::shared_ptr<Connection> connection_;
   std::map<std::string, Handler, std::less<>> handlers_;
   std::optional<EncodedPicture> last_picture_;
   Renderer renderer_;
+  // These use all that is above, and end first.
+  NewestTask measuring_;
+  NewestTask exporting_;
 };
 
 }  // namespace crt::studio

@@ -29,6 +29,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   std::size_t count = 9;
   double corner[3];
   std::int8_t side = 0;
+  crt_surface_mesh* surface = nullptr;
   crt_mass mass;
   crt_mass_init(&mass, sizeof mass);
   crt_light light;
@@ -170,6 +171,12 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"entities[0]", [&] { return crt_interference(nothing, 1, 1, 0, nullptr, 0, &count); }},
       {"overlaps", [&] { return crt_interference(nullptr, 0, 1, 0, nullptr, 1, &count); }},
       {"count", [&] { return crt_interference(nullptr, 0, 1, 0, nullptr, 0, nullptr); }},
+      {"entity", [&] { return crt_entity_tessellate(nullptr, 1, &surface); }},
+      {"out", [&] { return crt_entity_tessellate(ball.get(), 1, nullptr); }},
+      {"mesh", [&] { return crt_surface_mesh_write(nullptr, "a.stl"); }},
+      {"meshes",
+       [&] { return crt_surface_meshes_write(nullptr, 1, nullptr, nullptr, 0, "a.stl"); }},
+      {"path", [&] { return crt_surface_meshes_write(nullptr, 0, nullptr, nullptr, 0, nullptr); }},
       {"prepared", [&] { return crt_hit_parts(nullptr, nullptr, 0, 0, nullptr, 0); }},
       {"rays", [&] { return crt_hit_parts(prepared.get(), nullptr, 0, 1, nullptr, 0); }},
       {"parts", [&] { return crt_hit_parts(prepared.get(), &ray, 0, 1, nullptr, 0); }},

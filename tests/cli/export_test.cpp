@@ -87,3 +87,33 @@ TEST_CASE_FIXTURE(Fixture, "files of a script lie beside it, and have none witho
   CHECK(streamed.exit_code == 1);
   CHECK(contains(streamed.err, "give the script a name with -o"));
 }
+
+TEST_CASE_FIXTURE(Fixture, "solids are written as triangles, with what is left out named") {
+  folder.write("parts.crt", R"(Settings { unit -> "mm" }
+Scene {
+  Box {
+    cornerA -> vec3(0, 0, 0) cornerB -> vec3(4, 2, 1)
+    material -> Material { color -> rgb(1, 0.5, 0) }
+  }
+  Plane { normal -> vec3(0, 1, 0) position -> vec3(0, -3, 0) }
+  Sphere { center -> vec3(9, 0, 0) radius -> 1 }
+})");
+  const Outcome run =
+      run_crt(folder, {"export", "parts.crt", "-o", "parts.3mf", "--deviation", "0.05"});
+  CHECK_MESSAGE(run.exit_code == 0, run.err);
+  CHECK(contains(run.err, "entity 1 is left out"));
+  CHECK(contains(run.err, " triangles, within 0.0"));
+  folder.write("read.crt", "Scene { Mesh { file -> \"parts.3mf\" } }\n");
+  const Outcome read = run_crt(folder, {"check", "read.crt"});
+  CHECK_MESSAGE(read.exit_code == 0, read.err);
+  // One entity, with a deviation that fits its size.
+  CHECK(run_crt(folder, {"export", "parts.crt", "-o", "box.glb", "--entity", "0"}).exit_code == 0);
+  CHECK(contains(folder.read("box.glb"), "\"baseColorFactor\":[1,0.5,0,1]"));
+  CHECK(contains(folder.read("box.glb"), "\"max\":[0.004,0.002,0.001]"));
+  const Outcome ground = run_crt(folder, {"export", "parts.crt", "-o", "no.stl", "--entity", "1"});
+  CHECK(ground.exit_code == 1);
+  CHECK(!folder.has("no.stl"));
+  CHECK(run_crt(folder, {"export", "parts.crt", "-o", "a.stl", "--deviation", "0"}).exit_code == 2);
+  CHECK(run_crt(folder, {"export", "parts.crt", "-o", "a.cpp", "--deviation", "1"}).exit_code == 1);
+  CHECK(run_crt(folder, {"export", "parts.crt", "-o", "none/a.stl"}).exit_code == 3);
+}

@@ -24,6 +24,21 @@ inline std::optional<bool> said_of(const core::FaceFunctions& functions,
   if (near.kind == outside) return false;
   if (near.kind == inside) return true;
   if (near.kind == unknown) return std::nullopt;
+  if (near.kind == by_signs) {
+    std::uint32_t negative = 0;
+    std::uint32_t open = 0;
+    for (std::size_t i = 0; i < near.faces.size(); ++i) {
+      const core::Interval value = functions.value(near.faces[i], core::known_point(point));
+      if (value.hi < 0) negative |= 1U << i;
+      if (value.contains(0)) open |= 1U << i;
+    }
+    const auto is_inside = [&](std::uint32_t some) {
+      return (near.inside >> (negative | some) & 1U) != 0;
+    };
+    for (std::uint32_t some = open; some != 0; some = (some - 1) & open)
+      if (is_inside(some) != is_inside(0)) return std::nullopt;
+    return is_inside(0);
+  }
   const bool is_all = near.kind == where_all_negative;
   bool is_open = false;
   for (const std::uint32_t face : near.faces) {

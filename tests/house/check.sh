@@ -243,7 +243,7 @@ lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
 lines_with '^#include (<nlohmann/json\.hpp>|"text/json\.hpp")' "${code[@]}" |
   without '^src/text/json\.hpp:' |
   without '^src/(lsp/(server|requests|json_values)|farm/manifest|cli/(stats|measure)_json)\.cpp:' |
-  without '^src/studio/(messages|view_messages|listing|scene_server)\.cpp:' |
+  without '^src/studio/(messages|view_messages|solid_messages|listing|scene_server)\.cpp:' |
   without '^src/studio/(studio_client|view_client)\.cpp:' |
   complain "JSON outside the sources that have to wait for it"
 lines_with '\b([jJ]son::(parse|accept|sax_parse)|parse_json)\(' "${code[@]}" |

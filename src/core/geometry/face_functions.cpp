@@ -32,7 +32,14 @@ struct Way {
 void NearFaces::keep_within(std::uint32_t face) {
   if (kind == Kind::outside || (kind == Kind::unknown && faces.empty())) return;
   if (kind == Kind::inside) kind = Kind::where_all_negative;
-  if (kind == Kind::where_any_negative) kind = Kind::unknown;
+  const std::uint32_t signs = 1U << faces.size();
+  if (kind == Kind::where_any_negative) {
+    kind = faces.size() < most_by_signs ? Kind::by_signs : Kind::unknown;
+    // Only where none is below 0 there is nothing.
+    inside = (std::uint32_t{2} << (signs - 1)) - 2;
+  }
+  if (kind == Kind::by_signs && faces.size() == most_by_signs) kind = Kind::unknown;
+  if (kind == Kind::by_signs) inside <<= signs;
   faces.push_back(face);
 }
 

@@ -35,6 +35,9 @@ struct NearFaces {
     /// A point of the box is in the solid if one of these functions is below 0 there, and not in it
     /// if all of them are above.
     where_any_negative,
+    /// Whether a point of the box is in the solid follows from `inside`: bit m says so of where
+    /// exactly the functions of those of `faces` are below 0 whose bits are set in m.
+    by_signs,
     /// Nothing is known, but that no other faces than `faces` are in the box. If these are none,
     /// not even that.
     unknown,
@@ -42,7 +45,14 @@ struct NearFaces {
   Kind kind = Kind::unknown;
   /// Numbers from Shape::face_count() on are of more functions, whose surfaces no other solid has.
   std::vector<std::uint32_t> faces;
+  std::uint32_t inside = 0;
+  static constexpr std::size_t most_by_signs = 5;
 
+  /// Says so of at most most_by_signs faces.
+  void say_by_signs(std::initializer_list<std::uint32_t> of_faces, std::uint32_t in_solid) {
+    say(Kind::by_signs, of_faces);
+    inside = in_solid;
+  }
   void say(Kind what, std::initializer_list<std::uint32_t> of_faces = {}) {
     kind = what;
     faces.assign(of_faces);
@@ -74,12 +84,16 @@ class FaceFunctions {
   /// Returns the largest number of times that a line may cross the surface of a face, or 0 if there
   /// is no such number.
   virtual int max_crossings(std::uint32_t face) const = 0;
+  /// Returns whether the surface of a face may be surface of the solid. Others only say where faces
+  /// count.
+  virtual bool is_surface(std::uint32_t face) const = 0;
 };
 
 /// A FaceFunctionsOf is made of a Solid with `template <class Number> Number value(face, point)`,
 /// `int max_crossings(face)`, and either face_count(), of a solid that is where all its functions
 /// are below 0, or `void look(box, near)`. One whose functions take no series says so by
-/// `static constexpr bool has_series = false`.
+/// `static constexpr bool has_series = false`, and one with functions of no surface has
+/// `bool is_surface(face)`.
 template <class Solid>
 class FaceFunctionsOf final : public FaceFunctions {
  public:
@@ -111,6 +125,10 @@ class FaceFunctionsOf final : public FaceFunctions {
   }
   bool has_series() const override { return with_series; }
   int max_crossings(std::uint32_t face) const override { return solid_.max_crossings(face); }
+  bool is_surface(std::uint32_t face) const override {
+    if constexpr (requires { solid_.is_surface(face); }) return solid_.is_surface(face);
+    return true;
+  }
 
  private:
   static constexpr bool with_series = [] {

@@ -30,4 +30,25 @@ void CellTree::divide(std::uint32_t number) {
   nodes_[number].part_count = static_cast<std::uint32_t>(nodes_.size()) - first;
 }
 
+Cell CellTree::cell(std::uint32_t object, const Bounds& box) const {
+  const auto has_box = [&](std::uint32_t number) {
+    const Bounds& around = nodes_[number].cell.box;
+    for (int axis = 0; axis < 3; ++axis)
+      if (box.lower[axis] < around.lower[axis] || box.upper[axis] > around.upper[axis])
+        return false;
+    return true;
+  };
+  std::uint32_t number = object;
+  if (!has_box(number)) return solids_[object].cell(box);
+  for (bool is_smaller = true; is_smaller;) {
+    const Node& node = nodes_[number];
+    is_smaller = false;
+    for (std::uint32_t i = 0; i < node.part_count && !is_smaller; ++i) {
+      is_smaller = has_box(node.first_part + i);
+      if (is_smaller) number = node.first_part + i;
+    }
+  }
+  return {box, nodes_[number].cell.program};
+}
+
 }  // namespace crt::core

@@ -30,6 +30,8 @@ class CellTree {
   /// Divides a node into those that follow `first_part`. There are none if it cannot be divided, or
   /// if nothing crosses it.
   void divide(std::uint32_t number);
+  /// Returns a cell of an object, with what is open of its program in the smallest node around it.
+  Cell cell(std::uint32_t object, const Bounds& box) const;
   std::size_t size() const { return nodes_.size(); }
 
  private:

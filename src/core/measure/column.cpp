@@ -59,6 +59,7 @@ class Column {
     Interval sum{0, 0};
     const Interval scale = frame_.side(frame_.a) * frame_.side(frame_.b) * Interval::of(0.25);
     for (const ColumnHeight& height : faces_.heights) {
+      if (!look_.faces[height.face].is_surface) continue;
       const PatchSeries slant = slant_of(solid_, look_, frame_, height);
       const Interval range = range_of(slant);
       double seen = 0;
@@ -87,6 +88,7 @@ class Column {
     double off = wall_off_;
     const double height = rounded_up(frame_.box.upper[frame_.c] - frame_.box.lower[frame_.c]);
     for (const WallSegment& segment : segments_) {
+      if (!look_.faces[faces_.walls[segment.wall].face].is_surface) continue;
       const double length = length_of(segment);
       const std::uint32_t bit = 1U << faces_.walls[segment.wall].face;
       const auto is_surface = [&](std::uint32_t states) {
@@ -105,6 +107,7 @@ class Column {
                      });
     }
     for (const ColumnWall& wall : faces_.walls) {
+      if (!look_.faces[wall.face].is_surface) continue;
       // If the wall is off, its line may leave the square, or come in.
       const Vec3& slope = wall.function.slope;
       const double steepest = std::max(std::abs(slope.x), std::abs(slope.y));
@@ -172,13 +175,28 @@ class Column {
       return area_in_doubt(line.function, line.error) * part.size * part.size;
     }
   };
+  /// Returns whether it may matter which of two levels is above the other. It does not of two faces
+  /// of which another says which of them counts.
+  bool may_matter(std::size_t lower, std::size_t upper) const {
+    const std::size_t last = levels_.size() - 1;
+    if (lower == 0 || upper == last) return lower > 0 || upper < last;
+    const std::uint32_t a = 1U << faces_.heights[lower - 1].face;
+    const std::uint32_t b = 1U << faces_.heights[upper - 1].face;
+    for (std::uint32_t m = 0; m < 1U << look_.faces.size(); ++m) {
+      if ((m & (a | b)) != 0) continue;
+      const auto differ = [&](std::uint32_t x, std::uint32_t y) {
+        return look_.is_inside(m | x) != look_.is_inside(m | y);
+      };
+      if ((differ(0, a) || differ(b, a | b)) && (differ(0, b) || differ(a, a | b))) return true;
+    }
+    return false;
+  }
   /// Cuts the square where walls are, and where levels cross.
   void cut_square() {
     std::vector<Crossing> crossings;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       for (std::size_t j = i + 1; j < levels_.size(); ++j) {
-        const bool are_ends = i == 0 && j + 1 == levels_.size();
-        if (!are_ends) crossings.push_back({levels_[j] - levels_[i], i, j});
+        if (may_matter(i, j)) crossings.push_back({levels_[j] - levels_[i], i, j});
       }
     }
     areas_in_doubt_.assign(levels_.size(), 0);

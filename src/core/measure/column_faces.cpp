@@ -57,8 +57,7 @@ class HeightSearch {
     for (int step = 0; step < 4; ++step) {
       place[at(c)] = Interval::of(middle_);
       const Jet jet = solid_.value(face_, jets_of(place));
-      for (int axis = 0; axis < 3; ++axis)
-        slopes_[axis] = jet.slope[at(axis)].middle();
+      for (int axis = 0; axis < 3; ++axis) slopes_[axis] = jet.slope[at(axis)].middle();
       if (slopes_[c] == 0) return false;
       const double step_by = (jet.value.middle()) / slopes_[c];
       if (!std::isfinite(step_by)) return false;

@@ -23,8 +23,11 @@ LineRun::Kind kind_of(const CellLook& look) {
 /// Divides a line, all parts that are open at once.
 class LineDivision {
  public:
-  LineDivision(const CellSolid& solid, const SolidLine& line, double from, double to)
-      : solid_(solid), line_(line), resolution_(line.resolution(std::max(-from, to))) {
+  LineDivision(const CellSolid& solid, const SolidLine& line, double from, double to,
+               double shortest)
+      : solid_(solid),
+        line_(line),
+        resolution_(std::max(shortest, line.resolution(std::max(-from, to)))) {
     add(from, to, solid.cell(line.box(from, to)).program);
   }
 
@@ -56,7 +59,7 @@ class LineDivision {
     append(
         {{.from = from, .to = to, .kind = kind_of(look)}, look.program ? look.program : program});
   }
-  /// Makes one run of neighbours of one kind.
+  /// Appends a part, or makes the last run longer where both are known and of one kind.
   void append(OpenRun&& part) {
     const bool is_known = part.run.kind != LineRun::Kind::open;
     if (is_known && !runs_.empty() && runs_.back().run.kind == part.run.kind) {
@@ -126,8 +129,8 @@ double SolidLine::resolution(double distance) const {
 }
 
 std::vector<LineRun> runs_of_line(const CellSolid& solid, const SolidLine& line, double from,
-                                  double to) {
-  return LineDivision(solid, line, from, to).divide();
+                                  double to, double shortest) {
+  return LineDivision(solid, line, from, to, shortest).divide();
 }
 
 }  // namespace crt::core

@@ -38,9 +38,9 @@ struct LineRun {
 };
 
 /// Returns all runs between two distances, in order, each of another kind than the next. What is
-/// open is divided until it is as short as rounding lets it be, or until there are very many parts,
-/// as where a line is in a face.
+/// open is divided until it is as short as is wanted, which is no less than rounding lets it be, or
+/// until there are very many parts, as where a line is in a face.
 std::vector<LineRun> runs_of_line(const CellSolid& solid, const SolidLine& line, double from,
-                                  double to);
+                                  double to, double shortest = 0);
 
 }  // namespace crt::core

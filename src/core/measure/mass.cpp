@@ -65,9 +65,8 @@ class MassSearch {
       score(cells, all);
       const std::size_t some = count_to_divide(cells);
       // The surface is about as large as that of the box around the solid.
-      question_.height_tolerance = options_.relative_width *
-                                   (all.volume.middle()) /
-                                   (2 * surface_of_box_);
+      question_.height_tolerance =
+          options_.relative_width * (all.volume.middle()) / (2 * surface_of_box_);
       if (some == 0) break;
       divide(cells, some);
       put_away(cells);

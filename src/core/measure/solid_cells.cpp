@@ -57,6 +57,31 @@ struct NearFace {
   bool flipped = false;    ///< its function is that of the other face with the sign changed
 };
 
+/// A LeafRule says where an open leaf is inside, by the signs of its faces.
+struct LeafRule {
+  bool is_any = false;
+  bool by_signs = false;
+  std::uint32_t table = 0;
+
+  /// Returns whether a point is inside where some of `count` faces are below 0.
+  bool is_inside(std::uint32_t negative, std::size_t count) const {
+    if (by_signs) return (table >> negative & 1U) != 0;
+    return is_any ? negative != 0 : negative == (1U << count) - 1;
+  }
+};
+
+/// Returns what a table says where the sign of one of its faces is known.
+std::uint32_t without_face(std::uint32_t table, std::size_t face, bool is_negative) {
+  std::uint32_t rest = 0;
+  const std::uint32_t bit = 1U << face;
+  for (std::uint32_t m = 0; m < 1U << (NearFaces::most_by_signs - 1); ++m) {
+    const std::uint32_t low = m & (bit - 1);
+    const std::uint32_t with_face = ((m & ~(bit - 1)) << 1) | low | (is_negative ? bit : 0);
+    rest |= (table >> with_face & 1U) << m;
+  }
+  return rest;
+}
+
 CellFace linear_face(const Interval& at_middle, const Jet& jet, const Vec3& half) {
   CellFace face{.slopes = jet.slope};
   face.value = at_middle.middle();
@@ -87,13 +112,7 @@ void drop_faces(CellLook& look) {
     for (std::uint32_t m = 0; m < count && !matters; ++m)
       matters = look.is_inside(m) != look.is_inside(m ^ bit);
     if (matters) continue;
-    std::uint32_t inside = 0;
-    for (std::uint32_t m = 0; m < count / 2; ++m) {
-      const std::uint32_t low = m & (bit - 1);
-      const std::uint32_t with_gap = ((m & ~(bit - 1)) << 1) | low;
-      inside |= static_cast<std::uint32_t>(look.is_inside(with_gap)) << m;
-    }
-    look.inside = inside;
+    look.inside = without_face(look.inside, i, false);
     look.faces.erase(look.faces.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
@@ -105,7 +124,9 @@ struct CellSolid::Workspace {
   NearFaces near;
   std::vector<CellFace> faces;  ///< those that may be negative or positive
   bool is_unknown = false;
-  bool is_any = false;       ///< the leaf is inside where any of its faces is negative, and not all
+  bool is_any = false;    ///< the leaf is inside where any of its faces is negative, and not all
+  bool by_signs = false;  ///< it is inside where `table` says so, as NearFaces have it
+  std::uint32_t table = 0;
   double max_crossings = 0;  ///< of all faces that may be in the cell
 };
 
@@ -140,6 +161,8 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
                              Workspace& work) const {
   work.faces.clear();
   work.is_unknown = false;
+  work.is_any = false;
+  work.by_signs = false;
   work.max_crossings = 0;
   const LeafValue inside =
       leaf.leaf->complemented ? LeafValue::always_false : LeafValue::always_true;
@@ -154,7 +177,6 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
       if (side.lo > bounds.upper[axis] || side.hi < bounds.lower[axis]) return outside;
     }
     work.is_unknown = true;
-    work.is_any = false;
     work.max_crossings = infinity;
     return LeafValue::open;
   }
@@ -163,7 +185,6 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
   if (work.near.kind == NearFaces::Kind::outside) return outside;
   if (work.near.kind == NearFaces::Kind::unknown) {
     work.is_unknown = true;
-    work.is_any = false;
     if (work.near.faces.empty()) work.max_crossings = infinity;
     for (const std::uint32_t face : work.near.faces) {
       const int crossings = leaf.functions->max_crossings(face);
@@ -172,14 +193,20 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
     return LeafValue::open;
   }
   work.is_any = work.near.kind == NearFaces::Kind::where_any_negative;
+  work.by_signs = work.near.kind == NearFaces::Kind::by_signs;
   const std::array<Jet, 3> jets = leaf.placement->to_object(jets_of(place));
   const std::array<Interval, 3> middle = leaf.placement->to_object(known_point(frame.middle));
+  std::uint32_t table = work.near.inside;
   for (const std::uint32_t face : work.near.faces) {
     const Jet jet = leaf.functions->value(face, jets);
     const Interval at_middle = leaf.functions->value(face, middle);
     const Interval range = narrowed(at_middle, jet, frame.half);
     if (range.lo > 0 || range.hi < 0) {
       const bool is_negative = range.hi < 0;
+      if (work.by_signs) {
+        table = without_face(table, work.faces.size(), is_negative);
+        continue;
+      }
       if (is_negative == work.is_any) return is_negative ? inside : outside;
       continue;
     }
@@ -187,6 +214,7 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
     found.leaf = static_cast<std::uint32_t>(&leaf - leaves_.data());
     found.face = face;
     found.surface = own_surface(found.leaf, face);
+    found.is_surface = leaf.functions->is_surface(face);
     if (face < leaf.leaf->shape->face_count()) {
       const FaceSurface surface = leaf.leaf->surface_of(face, surfaces_);
       found.surface = surface.surface;
@@ -195,6 +223,12 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
     work.faces.push_back(found);
     const int crossings = leaf.functions->max_crossings(face);
     work.max_crossings += crossings > 0 ? crossings : infinity;
+  }
+  if (work.by_signs) {
+    work.table = table;
+    const std::uint32_t all = (std::uint32_t{2} << ((1U << work.faces.size()) - 1)) - 1;
+    if ((table & all) == 0) return outside;
+    if ((table & all) == all) return inside;
   }
   if (!work.faces.empty()) return LeafValue::open;
   return work.is_any ? outside : inside;
@@ -207,12 +241,12 @@ CellLook CellSolid::look(const Cell& cell) const {
   Workspace work;
   std::vector<LeafValue> values(program.leaves.size());
   std::vector<NearFace> near;
-  std::vector<bool> is_any(program.leaves.size(), false);
+  std::vector<LeafRule> rules(program.leaves.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = look_at(leaves_[program.leaves[i].leaf], cell, frame, work);
     if (values[i] != LeafValue::open) continue;
     look.max_crossings += work.max_crossings;
-    is_any[i] = work.is_any;
+    rules[i] = {.is_any = work.is_any, .by_signs = work.by_signs, .table = work.table};
     // Of what is unknown there is one face, of which nothing is known.
     if (work.is_unknown) {
       work.faces = {
@@ -257,14 +291,18 @@ CellLook CellSolid::look(const Cell& cell) const {
   const auto leaf_true = std::make_unique<bool[]>(rest->leaves.size());
   const std::uint32_t count = 1U << look.faces.size();
   for (std::uint32_t m = 0; m < count; ++m) {
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (places[i] < rest->leaves.size()) leaf_true[places[i]] = !is_any[i];
-    for (const NearFace& face : near) {
-      const std::size_t place = places[face.leaf];
-      if (place == rest->leaves.size()) continue;
-      const bool is_set = ((m >> numbers[face.number]) & 1U) != 0;
-      const bool negative = is_set != face.flipped;
-      if (negative == is_any[face.leaf]) leaf_true[place] = negative;
+    // The faces of a leaf follow one another.
+    for (std::size_t i = 0; i < near.size();) {
+      const std::size_t leaf = near[i].leaf;
+      std::uint32_t negative = 0;
+      std::size_t faces_of_leaf = 0;
+      for (; i < near.size() && near[i].leaf == leaf; ++i, ++faces_of_leaf) {
+        if (places[leaf] == rest->leaves.size()) continue;
+        const bool is_set = ((m >> numbers[near[i].number]) & 1U) != 0;
+        if (is_set != near[i].flipped) negative |= 1U << faces_of_leaf;
+      }
+      if (places[leaf] != rest->leaves.size())
+        leaf_true[places[leaf]] = rules[leaf].is_inside(negative, faces_of_leaf);
     }
     for (std::size_t i = 0; i < rest->leaves.size(); ++i) {
       if (leaves_[rest->leaves[i].leaf].leaf->complemented) leaf_true[i] = !leaf_true[i];

@@ -38,6 +38,7 @@ struct CellFace {
   std::uint32_t face = 0;
   std::uint64_t surface = 0;  ///< its number, or one that no other leaf has
   bool flipped = false;
+  bool is_surface = true;  ///< or its function only says where others count
   double value = 0;
   Vec3 slope{0, 0, 0};
   double error = 0;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <unordered_map>
 
 #include "core/geometry/face_functions.hpp"
 #include "core/math/float_environment.hpp"
@@ -20,6 +21,7 @@
 #include "core/measure/measure_clock.hpp"
 #include "core/measure/nearest.hpp"
 #include "core/measure/wall_faces.hpp"
+#include "crt/elementary.hpp"
 #include "crt/error.hpp"
 #include "crt/measure.hpp"
 
@@ -33,7 +35,15 @@ namespace {
 constexpr double exact_angle = 1e-5;
 
 /// The search is left after so many pairs: some seconds.
-constexpr std::size_t most_pairs_of_walls = std::size_t{1} << 17U;
+constexpr std::size_t most_pairs_of_walls = std::size_t{1} << 19U;
+
+/// A chord takes as long to find as many pairs take to be looked at. So there are so many at first,
+/// and then one for so many pairs.
+constexpr std::size_t most_chords_at_first = 256;
+constexpr std::size_t steps_of_chord = 256;
+
+/// The ends of chords are known to this share of the longest that is looked for.
+constexpr double ends_of_chords = 0x1p-36;
 
 /// A Chord is a piece of a line in a solid from side to side.
 struct Chord {
@@ -62,8 +72,7 @@ class ChordFinder {
       const double size = largest_component(slope);
       if (!(size > 0) || !std::isfinite(size)) return {};
       const Vec3 scaled = slope / size;
-      place -=
-          scaled * ((jet.value.middle()) / size / glm::dot(scaled, scaled));
+      place -= scaled * ((jet.value.middle()) / size / glm::dot(scaled, scaled));
     }
     if (!Bounds{place, place}.finite()) return {};
     return along(place, is_turned ? slope : -slope, most);
@@ -73,7 +82,8 @@ class ChordFinder {
   std::optional<Chord> along(const Vec3& place, const Vec3& direction, double most) const {
     const SolidLine line(place, direction);
     const double outside = 0x1p-20 * most;
-    const std::vector<LineRun> runs = runs_of_line(solid_, line, -outside, most);
+    const std::vector<LineRun> runs =
+        runs_of_line(solid_, line, -outside, most, ends_of_chords * most);
     for (std::size_t i = 1; i + 1 < runs.size(); ++i) {
       if (runs[i].kind != LineRun::Kind::full) continue;
       const LineRun& first = runs[i - 1];
@@ -124,8 +134,9 @@ class WallSearch {
         options_(options),
         clock_(options.measure),
         size_(glm::length(CellFrame(entity.bounds()).half)) {
-    const double exact = std::tan(exact_angle);
-    const double loose = std::tan(std::max(exact_angle, options.angle * std::numbers::pi / 180));
+    const double exact = elementary::tan(exact_angle);
+    const double loose =
+        elementary::tan(std::max(exact_angle, options.angle * std::numbers::pi / 180));
     angle_ = {.exact = exact * exact, .loose = loose * loose};
   }
 
@@ -172,18 +183,25 @@ class WallSearch {
     const CellTree::Node& a = tree_.node(number_a);
     const CellTree::Node& b = tree_.node(number_b);
     if (!a.look.is_open() || !b.look.is_open()) return;
+    const double apart = glm::length(way_between(a.cell.box, b.cell.box));
+    if (apart >= search_.most()) return;
     const double off = distance_rounding * std::max(largest_of(a.cell.box), largest_of(b.cell.box));
-    double least = infinity;
+    double least = apart;
     if (a.look.kind == CellLook::Kind::crossed && b.look.kind == CellLook::Kind::crossed) {
-      const std::vector<WallFace> faces_b = wall_faces_of(b.look);
-      for (const WallFace& face_a : wall_faces_of(a.look))
-        for (const WallFace& face_b : faces_b)
+      least = infinity;
+      for (const WallFace& face_a : faces_of(number_a))
+        for (const WallFace& face_b : faces_of(number_b))
           if (may_be_wall(a.cell.box, face_a, b.cell.box, face_b, angle_))
             least = std::min(least, least_between(a.cell.box, face_a, b.cell.box, face_b));
-    } else {
-      least = glm::length(way_between(a.cell.box, b.cell.box));
     }
     if (least < infinity) search_.add({number_a, number_b, std::max(0.0, least - off)});
+  }
+
+  /// Returns the faces of a node, which are found once. The list is there as long as the search.
+  const std::vector<WallFace>& faces_of(std::uint32_t number) {
+    const auto [place, is_new] = faces_.try_emplace(number);
+    if (is_new) place->second = wall_faces_of(tree_.node(number).look);
+    return place->second;
   }
 
   static double largest_of(const Bounds& box) {
@@ -201,7 +219,7 @@ class WallSearch {
       const Bounds between{(1 - share) * box_a.lower + share * box_b.lower,
                            (1 - share) * box_a.upper + share * box_b.upper};
       const Vec3 off = Vec3(distance_rounding * std::max(largest_of(box_a), largest_of(box_b)));
-      if (solid.look(solid.cell({between.lower - off, between.upper + off})).kind ==
+      if (solid.look(tree_.cell(a.object, {between.lower - off, between.upper + off})).kind ==
           CellLook::Kind::empty)
         return true;
     }
@@ -214,9 +232,11 @@ class WallSearch {
       const CellTree::Node& node = tree_.node(number);
       const ChordFinder finder(solids_[node.object], angle_);
       const CellFrame frame(node.cell.box);
-      for (const WallFace& face : wall_faces_of(node.look)) {
+      for (const WallFace& face : faces_of(number)) {
         // A face of a cell is asked once, and its parts are asked when the cell is divided.
-        if (!(open.least < search_.most()) || asked_.size() > 64 + steps_ / 8) return;
+        if (!(open.least < search_.most()) ||
+            asked_.size() > most_chords_at_first + steps_ / steps_of_chord)
+          return;
         if (!asked_.emplace(number, face.face->surface, face.is_turned).second) continue;
         offer(finder.find(*face.face, face.is_turned, middle_of(frame, *face.face), most()));
       }
@@ -244,6 +264,7 @@ class WallSearch {
   double size_;
   WallAngle angle_;
   std::size_t steps_ = 0;
+  std::unordered_map<std::uint32_t, std::vector<WallFace>> faces_;  ///< of nodes
   std::set<std::tuple<std::uint32_t, std::uint64_t, bool>> asked_;  ///< nodes, surfaces, sides
   NearestSearch<OpenWall> search_;
   Chord best_;

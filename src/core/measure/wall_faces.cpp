@@ -33,8 +33,7 @@ bool may_be_along(const IntervalVec& a, const IntervalVec& b, double square_of_t
 }
 
 Vec3 middle_of(const IntervalVec& v) {
-  return {v[0].middle(), v[1].middle(),
-          v[2].middle()};
+  return {v[0].middle(), v[1].middle(), v[2].middle()};
 }
 
 /// Returns a bound on how far a face in a box reaches along a direction. For any factor, that is

@@ -62,16 +62,21 @@ Vec3 common_direction(std::span<const Vec3> normals) {
 std::optional<Vec3> outward_direction(const CellLook& look) {
   std::array<Vec3, CellLook::max_faces> normals;
   std::array<double, CellLook::max_faces> signs{};
+  std::size_t count = 0;
   for (std::size_t i = 0; i < look.faces.size(); ++i) {
+    if (!look.faces[i].is_surface) continue;
     signs[i] = sign_of_face(look, i);
     const Vec3 slope = middle_of(look.faces[i].slopes);
     const double length = glm::length(slope);
     if (signs[i] == 0 || !(length > 0 && length < infinity)) return {};
-    normals[i] = slope * (signs[i] / length);
+    normals[count++] = slope * (signs[i] / length);
   }
-  const Vec3 direction = common_direction(std::span(normals).first(look.faces.size()));
-  for (std::size_t i = 0; i < look.faces.size(); ++i)
-    if (!(least_growth(look.faces[i].slopes, direction, signs[i]) > 0)) return {};
+  if (count == 0) return {};
+  const Vec3 direction = common_direction(std::span(normals).first(count));
+  for (std::size_t i = 0; i < look.faces.size(); ++i) {
+    if (look.faces[i].is_surface && !(least_growth(look.faces[i].slopes, direction, signs[i]) > 0))
+      return {};
+  }
   return direction;
 }
 
@@ -87,6 +92,7 @@ int dividing_axis(const CellSolid& solid, const Bounds& box, const CellLook& loo
   Vec3 turn(0, 0, 0);
   Vec3 reach(0, 0, 0);
   for (const CellFace& face : look.faces) {
+    if (!face.is_surface) continue;
     const Vec3 slope = middle_of(face.slopes);
     const double length = glm::length(slope);
     if (!(length > 0)) return longest;
@@ -144,7 +150,8 @@ bool CellPartition::is_simple(const PartitionNode& node) const {
   if (!outward_direction(node.look)) return false;
   constexpr double share = 2;
   return std::ranges::all_of(node.look.faces, [&](const CellFace& face) {
-    return face.error <= share * deviation_ * glm::length(middle_of(face.slopes));
+    return !face.is_surface ||
+           face.error <= share * deviation_ * glm::length(middle_of(face.slopes));
   });
 }
 

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "crt/elementary.hpp"
+
 namespace crt::core {
 
 namespace {
@@ -123,7 +125,7 @@ class Closing {
     const double length = glm::length(axis);
     for (SideOfTriangle& side : sides) {
       const Vec3 apex = vertices_[triangles_[side.triangle][(side.side + 2) % 3]].place - from;
-      side.angle = std::atan2(glm::dot(apex, y), glm::dot(apex, x) * length);
+      side.angle = elementary::atan2(glm::dot(apex, y), glm::dot(apex, x) * length);
     }
     std::sort(sides.begin(), sides.end(), [](const SideOfTriangle& a, const SideOfTriangle& b) {
       return std::tuple(a.angle, a.place()) < std::tuple(b.angle, b.place());

@@ -267,6 +267,7 @@ bool DeviationProof::is_near_mesh(const Cell& cell, std::span<const std::uint32_
   if (look.kind == CellLook::Kind::crossed) {
     bool is_covered = true;
     for (std::size_t i = 0; i < look.faces.size() && is_covered; ++i) {
+      if (!look.faces[i].is_surface) continue;
       std::vector<FlatTriangle> surface;
       double away = infinity;
       add_surface(look, i, frame, surface, away);

@@ -191,7 +191,8 @@ class DualMeshMaker {
       if (std::find(faces.begin(), faces.end(), pull->face) == faces.end())
         faces.push_back(pull->face);
     }
-    result.is_partial = faces.size() < node(cell).look.faces.size();
+    const auto surfaces = std::ranges::count_if(node(cell).look.faces, &CellFace::is_surface);
+    result.is_partial = faces.size() < static_cast<std::size_t>(surfaces);
     if (faces.empty()) {
       // So little is known only of cells that are small, or of what cannot be helped.
     } else if (places.meet(faces, mean)) {

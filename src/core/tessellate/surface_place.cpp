@@ -25,7 +25,8 @@ Vec3 step_to(std::span<const FacePull> pulls) {
     Row* best = nullptr;
     for (Row& row : rows) {
       if (row.taken) continue;
-      if (best == nullptr || glm::length(row.rest) > glm::length(best->rest)) best = &row;
+      constexpr double clearly = 1 + 1e-9;
+      if (best == nullptr || glm::length(row.rest) > clearly * glm::length(best->rest)) best = &row;
     }
     constexpr double parallel = 0.02;
     if (best == nullptr || !(glm::length(best->rest) > parallel)) break;
@@ -100,7 +101,8 @@ const FacePull* SurfacePlaces::nearest(std::span<const FacePull> pulls, double& 
   for (std::size_t i = 0; i < pulls.size(); ++i) {
     const std::uint32_t bit = 1U << order[i]->face;
     for (std::uint32_t some = passed;; some = (some - 1) & passed) {
-      if (node_.look.is_inside(negative ^ bit ^ some) != here) {
+      if (node_.look.faces[order[i]->face].is_surface &&
+          node_.look.is_inside(negative ^ bit ^ some) != here) {
         distance = std::abs(order[i]->distance);
         return order[i];
       }
@@ -125,6 +127,11 @@ bool SurfacePlaces::meet(std::span<const std::size_t> faces, int side, Vec3& pla
     std::vector<FacePull> wanted;
     wanted.reserve(faces.size() + 1);
     for (const std::size_t face : faces) wanted.push_back(pulls[face]);
+    // Of faces that are parallel here that one counts which is surface.
+    double distance = infinity;
+    const FacePull* const surface = nearest(pulls, distance);
+    for (FacePull& pull : wanted)
+      if (surface != nullptr && pull.face == surface->face) std::swap(pull, wanted.front());
     if (side != invalid_side) {
       const int axis = side / 2;
       Vec3 across(0, 0, 0);

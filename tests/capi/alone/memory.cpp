@@ -228,6 +228,12 @@ TEST_CASE("measuring") {
       [&] { return crt_entity_clearance(part.get(), apart.get(), 1, &clearance, lower, upper); });
   check_every_failure(
       [&] { return crt_entity_thickness(apart.get(), 1, &clearance, lower, upper); });
+  check_every_failure([&] {
+    crt_surface_mesh* surface = nullptr;
+    const crt_status status = crt_entity_tessellate(apart.get(), 0.5, &surface);
+    crt_surface_mesh_release(surface);
+    return status;
+  });
   crt_entity* const both[2] = {a.get(), b.get()};
   std::size_t count = 0;
   check_every_failure([&] { return crt_interference(both, 2, 1, 0, nullptr, 0, &count); });

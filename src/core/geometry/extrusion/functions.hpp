@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/geometry/face_functions.hpp"
+#include "core/geometry/profile/joints.hpp"
 #include "core/geometry/profile/near_walls.hpp"
 #include "core/geometry/profile/wall_faces.hpp"
 
@@ -15,13 +16,20 @@ struct ExtrusionFunctions {
   double upper = 1;
 
   int max_crossings(std::uint32_t face) const {
+    if (is_joint(*profile, face)) return 1;
     return face >= end_count && profile->wall(wall_of_face(face)).arc != invalid_index ? 2 : 1;
   }
+  bool is_surface(std::uint32_t face) const { return !is_joint(*profile, face); }
   void look(const PointOf<Interval>& box, NearFaces& near) const;
   template <class Number>
   Number value(std::uint32_t face, const PointOf<Number>& point) const {
     if (face == 0) return -(point[2] - Interval::of(lower));
     if (face == 1) return point[2] - Interval::of(upper);
+    if (is_joint(*profile, face)) {
+      const Joint joint = joint_of(*profile, joint_of_face(*profile, face));
+      const auto [x, y, z] = relative_to(point, joint.place);
+      return x * Interval::of(joint.along.x) + y * Interval::of(joint.along.y);
+    }
     const Number outwards = value_of_wall(profile->wall(wall_of_face(face)), point);
     return is_turned(face) ? -outwards : outwards;
   }

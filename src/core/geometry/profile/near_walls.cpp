@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 
 #include "core/geometry/cut_box.hpp"
 #include "core/geometry/open_nodes.hpp"
+#include "core/geometry/profile/joints.hpp"
 #include "core/geometry/profile/plane_line.hpp"
 #include "core/geometry/profile/wall_faces.hpp"
 #include "core/math/vector.hpp"
@@ -73,6 +76,24 @@ class RegionLook {
   void add_cut(Cut cut, std::uint32_t wall);
   Cut flat_cut(const Profile::Piece& piece) const;
   Cut arc_cut(const Profile::Arc& arc) const;
+  /// Takes down that a piece is near.
+  void note(std::uint32_t piece);
+  /// Looks at where one piece goes over into another, if no others are near.
+  void look_at_joint(NearFaces& near) const;
+  void look_at_joint(std::uint32_t piece, std::uint32_t next, NearFaces& near) const;
+  Cut cut_of(std::uint32_t piece) const;
+  /// Returns whether what is to the left of a piece is where its line's or circle's function is
+  /// below 0.
+  bool is_left_below(std::uint32_t piece) const;
+  /// Returns the face of a piece that has the region to its left, or to its right.
+  std::uint32_t face_beside(std::uint32_t piece, bool is_left) const;
+  /// Returns on which side of two pieces the region is, if that is plain.
+  std::optional<bool> is_region_left(std::uint32_t piece, std::uint32_t next,
+                                     const Joint& joint) const;
+  std::optional<bool> is_inside(const Vec3& point) const {
+    const ObjectRay across{.origin = point};
+    return PlaneLine(across).is_inside(profile_);
+  }
   /// Returns whether a corner is in the rectangle. On an axis none counts.
   bool has_corner(const Profile::Piece& piece) const {
     const auto counts = [&](const Vec3& corner) {
@@ -89,6 +110,8 @@ class RegionLook {
   std::array<std::uint32_t, most_listed> faces_{};
   std::size_t listed_ = 0;
   bool has_more_ = false;  ///< walls than are listed
+  std::array<std::uint32_t, 2> near_{};
+  std::size_t near_count_ = 0;  ///< of pieces, at most one more than there is room for
   bool has_arcs_ = false;
   bool has_repeats_ = false;  ///< straight walls on one line
   bool has_corners_ = false;  ///< of straight walls
@@ -154,8 +177,108 @@ Cut RegionLook::arc_cut(const Profile::Arc& arc) const {
           .at_middle = (square(x) + square(y) - square(radius)) * curving};
 }
 
+void RegionLook::note(std::uint32_t piece) {
+  if (near_count_ < near_.size()) near_[near_count_] = piece;
+  near_count_ = std::min(near_count_ + 1, near_.size() + 1);
+}
+
+Cut RegionLook::cut_of(std::uint32_t piece) const {
+  const std::uint32_t arc = profile_.pieces()[piece].arc;
+  Cut cut =
+      arc == invalid_index ? flat_cut(profile_.pieces()[piece]) : arc_cut(profile_.arcs()[arc]);
+  cut.face = face_of_wall(piece, false);
+  cut.flipped = face_of_wall(piece, true);
+  return cut;
+}
+
+void RegionLook::look_at_joint(NearFaces& near) const {
+  const auto pieces = profile_.pieces();
+  const auto try_at = [&](std::uint32_t piece, std::uint32_t next) {
+    if (near.kind == NearFaces::Kind::unknown && pieces[piece].to == pieces[next].from)
+      look_at_joint(piece, next, near);
+  };
+  // Of two pieces that make a contour by themselves, or of one beside a corner, one end may be far
+  // enough.
+  if (near_count_ == 1) {
+    try_at(near_[0], piece_after(profile_, near_[0]));
+    try_at(piece_before(profile_, near_[0]), near_[0]);
+  } else if (near_count_ == 2) {
+    try_at(near_[0], near_[1]);
+    try_at(near_[1], near_[0]);
+  }
+}
+
+void RegionLook::look_at_joint(std::uint32_t piece, std::uint32_t next, NearFaces& near) const {
+  const Joint joint = joint_of(profile_, piece, next);
+  if (about_axis_ && joint.place.x == 0) return;
+  // Both pieces go through the rectangle, so that their ends are beyond it, and arcs are no more
+  // than a sixth of their circles there.
+  const Interval x = rectangle()[0] - Interval::of(joint.place.x);
+  const Interval y = rectangle()[1] - Interval::of(joint.place.y);
+  const double farthest = root(square(x) + square(y)).hi;
+  for (const std::uint32_t number : {piece, next}) {
+    const Profile::Piece& part = profile_.pieces()[number];
+    if (!(distance(part.from, part.to).lo > farthest)) return;
+    if (part.arc != invalid_index && !(profile_.arcs()[part.arc].radius > 2 * farthest)) return;
+  }
+  const double cosine = glm::dot(joint.before, joint.after);
+  constexpr double of_30_degrees = 0.86;
+  if (cosine < -of_30_degrees) return;
+  CutBox box(rectangle());
+  box.add(cut_of(piece));
+  box.add(cut_of(next));
+  if (cosine < of_30_degrees) {
+    // The lines and circles cross there alone.
+    return box.look([&](const Vec3& point) { return is_inside(point); }, near);
+  }
+  const std::optional<bool> is_left = is_region_left(piece, next, joint);
+  if (!is_left) return;
+  // Bits 0 and 1 are those of the pieces, and bit 2 says that the first of them counts.
+  constexpr std::uint32_t first_or_second = 0xac;
+  near.say_by_signs(
+      {face_beside(piece, *is_left), face_beside(next, *is_left), face_of_joint(profile_, piece)},
+      first_or_second);
+}
+
+bool RegionLook::is_left_below(std::uint32_t piece) const {
+  const std::uint32_t arc = profile_.pieces()[piece].arc;
+  return arc == invalid_index || profile_.arcs()[arc].is_right;
+}
+
+std::uint32_t RegionLook::face_beside(std::uint32_t piece, bool is_left) const {
+  return face_of_wall(piece, is_left != is_left_below(piece));
+}
+
+std::optional<bool> RegionLook::is_region_left(std::uint32_t piece, std::uint32_t next,
+                                               const Joint& joint) const {
+  // As in CutBox, points of round numbers would often be level with corners.
+  constexpr std::array<double, 3> shares = {0.4871, 0.0213, 0.9829};
+  double farthest = 0;
+  Vec3 best(0, 0, 0);
+  bool is_left = false;
+  for (const double s : shares) {
+    for (const double t : shares) {
+      const Vec3 point(rectangle()[0].lo + s * rectangle()[0].width(),
+                       rectangle()[1].lo + t * rectangle()[1].width(), 0);
+      const std::uint32_t beside = glm::dot(point - joint.place, joint.along) < 0 ? piece : next;
+      const Interval value =
+          cut_of(beside).value(relative_to(known_point(point), cut_box_.middle()));
+      const double distance = std::max(value.lo, -value.hi);
+      if (!(distance > farthest)) continue;
+      farthest = distance;
+      best = point;
+      is_left = (value.hi < 0) == is_left_below(beside);
+    }
+  }
+  if (farthest == 0) return {};
+  const std::optional<bool> inside = is_inside(best);
+  if (!inside) return {};
+  return *inside == is_left;
+}
+
 void RegionLook::add_flat(std::uint32_t number) {
   const Profile::Piece& piece = profile_.pieces()[number];
+  note(number);
   has_corners_ = has_corners_ || has_corner(piece);
   if (list(line_key(piece), face_of_wall(number, false))) {
     add_cut(flat_cut(piece), number);
@@ -166,6 +289,7 @@ void RegionLook::add_flat(std::uint32_t number) {
 
 void RegionLook::add_arc(std::uint32_t number) {
   has_arcs_ = true;
+  note(number);
   if (list(circle_key(number), face_of_wall(number, false)))
     add_cut(arc_cut(profile_.arcs()[profile_.pieces()[number].arc]), number);
 }
@@ -199,6 +323,7 @@ void RegionLook::add(std::uint32_t number) {
       !contains(rectangle(), piece.to, margin))
     return;
   failed_ = true;
+  note(number);
   list(circle_key(number), face_of_wall(number, false));
   list(line_key(piece), face_of_wall(profile_.chord_of(piece.arc), false));
 }
@@ -224,16 +349,14 @@ void RegionLook::look(NearFaces& near) {
   // Walls without ends here go all the way through, and the region is on one side of each.
   const bool takes_turns = !has_corners_ && !has_repeats_;
   if (!failed_ && (takes_turns || !has_arcs_)) {
-    const auto is_inside = [&](const Vec3& point) -> std::optional<bool> {
-      const ObjectRay across{.origin = point};
-      return PlaneLine(across).is_inside(profile_);
-    };
+    const auto is_point_inside = [&](const Vec3& point) { return is_inside(point); };
     if (takes_turns) {
-      cut_box_.look_by_turns(is_inside, near);
+      cut_box_.look_by_turns(is_point_inside, near);
     } else {
-      cut_box_.look(is_inside, near);
+      cut_box_.look(is_point_inside, near);
     }
   }
+  if (near.kind == NearFaces::Kind::unknown && (has_arcs_ || failed_)) look_at_joint(near);
   if (near.kind == NearFaces::Kind::unknown) near.faces.assign(&faces_[0], &faces_[listed_]);
 }
 

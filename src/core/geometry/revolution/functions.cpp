@@ -21,6 +21,7 @@ RevolutionFunctions::RevolutionFunctions(const TurnedProfile& turned)
 
 int RevolutionFunctions::max_crossings(std::uint32_t face) const {
   if (face < end_count) return 1;
+  if (is_joint(*turned_.profile, face)) return 2;
   const Profile::Wall wall = turned_.profile->wall(wall_of_face(face));
   if (wall.arc != invalid_index) return ring_of(turned_.profile->arcs()[wall.arc]) == 0 ? 2 : 4;
   const Profile::Piece& piece = turned_.profile->pieces()[wall.piece];
@@ -40,6 +41,7 @@ void RevolutionFunctions::look(const PointOf<Interval>& box, NearFaces& near) co
 void RevolutionFunctions::take_walls_of_bodies(const PointOf<Interval>& rectangle,
                                                NearFaces& near) const {
   for (std::uint32_t& face : near.faces) {
+    if (is_joint(*turned_.profile, face)) continue;
     const Profile::Wall wall = turned_.profile->wall(wall_of_face(face));
     if (wall.arc != invalid_index) continue;
     // What is to the right of a piece is above it, or away from the axis, or not.

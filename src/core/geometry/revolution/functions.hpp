@@ -2,6 +2,7 @@
 // those of the bodies, in the distance from the axis or in its square.
 #pragma once
 
+#include "core/geometry/profile/joints.hpp"
 #include "core/geometry/profile/near_walls.hpp"
 #include "core/geometry/revolution/turned_walls.hpp"
 
@@ -12,15 +13,28 @@ class RevolutionFunctions {
   explicit RevolutionFunctions(const TurnedProfile& turned);
 
   int max_crossings(std::uint32_t face) const;
+  bool is_surface(std::uint32_t face) const { return !is_joint(*turned_.profile, face); }
   void look(const PointOf<Interval>& box, NearFaces& near) const;
   template <class Number>
   Number value(std::uint32_t face, const PointOf<Number>& point) const {
     if (face < end_count) return component_along(point, ends_[face]);
+    if (is_joint(*turned_.profile, face)) return value_of_joint(face, point);
     const Number outwards = value_of_wall(turned_.profile->wall(wall_of_face(face)), point);
     return is_turned(face) ? -outwards : outwards;
   }
 
  private:
+  template <class Number>
+  Number value_of_joint(std::uint32_t face, const PointOf<Number>& point) const {
+    const Joint joint = joint_of(*turned_.profile, joint_of_face(*turned_.profile, face));
+    const Number squared_distance = square(point[0]) + square(point[2]);
+    const Interval place = Interval::of(joint.place.x);
+    const Number height = point[1] - Interval::of(joint.place.y);
+    if (joint.along.x == 0) return height * Interval::of(joint.along.y);
+    if (joint.along.y == 0) return (squared_distance - square(place)) * Interval::of(joint.along.x);
+    return (root(squared_distance) - place) * Interval::of(joint.along.x) +
+           height * Interval::of(joint.along.y);
+  }
   template <class Number>
   Number value_of_wall(const Profile::Wall& wall, const PointOf<Number>& point) const {
     const Number squared_distance = square(point[0]) + square(point[2]);

@@ -10,13 +10,16 @@ import {makeCopyList} from './copy_code';
 import {button} from './dom';
 import {Editor} from './editor';
 import {makeInsertList} from './insertion';
+import {makeExportList} from './export_mesh';
 import {Layout} from './layout';
 import {LiveView} from './live_view';
+import {MeasuresSheet} from './measures';
 import {Console, Statistics} from './panels';
 import {PropertySheet} from './properties';
-import type {Boxes, Camera, Code, Diagnostic, Message, Pick, Scene, State, TreeNode} from './protocol';
+import type {Boxes, Camera, Code, Diagnostic, Measures, Message, Pick, Scene, State, TreeNode} from './protocol';
 import {Queue} from './queue';
 import {ScriptFile} from './script_file';
+import {Ruler} from './ruler';
 import {Selection} from './selection';
 import {TradePlot} from './trade_plot';
 import {Tree} from './tree';
@@ -43,8 +46,12 @@ class Studio {
     textOf: (span) => this.editor.text.slice(span[0], span[1]),
     ballOf: (node) => this.ballOf(node),
   });
+  private readonly measures = new MeasuresSheet({
+    measure: (span) => this.connection.ask({type: 'measure', span}) as Promise<Measures | null>,
+  });
   private readonly selection = new Selection(this.tree, this.sheet,
-                                             (span) => this.editor.select(span, false));
+                                             (span) => this.editor.select(span, false),
+                                             (span) => this.measures.show(span));
   private readonly view = new LiveView({
     cameraMoved: (camera) => this.setCamera(camera),
     cameraReset: () => this.setCamera(null),
@@ -55,12 +62,15 @@ class Studio {
       this.viewState.set({region});
     },
   });
+  private readonly ruler = new Ruler(this.view.overlay, (text) => this.controls.say(text),
+                                     () => this.scene?.unit ?? '');
   private readonly controls = new ViewControls(this.viewState, this.view.comparison, {
     askBoxes: async () => (await this.askBoxes()).boxes,
     viewer: () => (this.camera ?? this.scene?.camera)?.position ?? [0, 0, 0],
     countShown: () => this.view.shown,
     boundsChanged: () => void this.drawBounds(),
     regionWanted: (isWanted) => this.view.takeRegion(isWanted),
+    rulerWanted: (isWanted) => this.ruler.use(isWanted),
   });
   private readonly editor = new Editor({
     changed: (text, changes) => {
@@ -109,6 +119,7 @@ class Studio {
 
   constructor(token: string, only?: string) {
     this.makeBar();
+    this.sheet.element.append(this.measures.element);
     document.body.classList.toggle('only-view', only !== undefined);
     this.layout.start(only);
     this.view.element.append(this.controls.element);
@@ -160,7 +171,7 @@ class Studio {
     add('Reset view', 'Look through the script’s camera (Home)', () => this.setCamera(null));
     add('PNG', 'Save the picture as PNG', () => this.savePicture('png'));
     add('EXR', 'Save the picture as EXR', () => this.savePicture('exr'));
-    bar.append(this.copyList(), this.layout.makeList());
+    bar.append(this.exportList(), this.copyList(), this.layout.makeList());
     add('Theme', 'Change between dark and light', () => this.layout.toggleTheme());
   }
 
@@ -199,6 +210,7 @@ class Studio {
         this.statistics.setScene(message);
         this.controls.setReadsTime(message.readsTime);
         void this.drawBounds();
+        this.measures.update();
         this.console.setWarnings(message.warnings);
         break;
       case 'state':
@@ -337,6 +349,10 @@ class Studio {
 
   private async pick(x: number, y: number, focuses: boolean): Promise<void> {
     const pick = (await this.connection.ask({type: 'pick', x, y})) as Pick | null;
+    if (this.ruler.isUsed && !focuses) {
+      if (pick) this.ruler.add(pick.position);
+      return;
+    }
     this.controls.showPick(pick);
     if (!pick || !this.scene) return;
     if (focuses) {
@@ -384,6 +400,15 @@ class Studio {
     return makeCopyList({
       ask: (language, span) => this.connection.ask(
         {type: 'code', language, ...(span ? {span} : {})}) as Promise<Code | null>,
+      selected: () => this.selection.selected,
+      note: (text, kind) => this.console.add(text, kind),
+    });
+  }
+
+  private exportList(): HTMLElement {
+    return makeExportList({
+      ask: (format, deviation, span) => this.connection.ask(
+        {type: 'surface', format, deviation, ...(span ? {span} : {})}) as Promise<boolean | null>,
       selected: () => this.selection.selected,
       note: (text, kind) => this.console.add(text, kind),
     });

@@ -26,6 +26,8 @@ export class PropertySheet {
   /** For tests: what is known of attributes beside what the server says. */
   static readonly known = {ranges};
   readonly element = document.createElement('div');
+  /** Has what the sheet shows of the object, beside what stands below it. */
+  private readonly content = document.createElement('div');
   private objects = new Map<string, ObjectDescription>();
   private node: TreeNode | null = null;
   private readonly ball = document.createElement('img');
@@ -35,6 +37,7 @@ export class PropertySheet {
 
   constructor(private readonly host: SheetHost) {
     this.element.className = 'sheet';
+    this.element.append(this.content);
     this.ball.className = 'ball';
     this.ball.alt = 'A ball of the material';
     this.show(null);
@@ -69,7 +72,7 @@ export class PropertySheet {
       const hint = document.createElement('p');
       hint.className = 'hint';
       hint.textContent = 'Click something in the picture, in the tree or in the script.';
-      this.element.replaceChildren(hint);
+      this.content.replaceChildren(hint);
       return;
     }
     const heading = document.createElement('h2');
@@ -112,7 +115,7 @@ export class PropertySheet {
       }
       rows.push(row);
     }
-    this.element.replaceChildren(...rows);
+    this.content.replaceChildren(...rows);
   }
 
   /** Lists what an object of the language may have, and of others what they have. */

@@ -100,6 +100,24 @@ export interface Scene {
   camera: Camera;
   isOverridden: boolean;
   readsTime: boolean;
+  /** Is what a scene unit is: m, cm, mm or in. */
+  unit: string;
+}
+
+/** Numbers that are between two others. What is infinite is null. */
+export type Interval = [number | null, number | null];
+
+/** How much an entity is. What has no volume has a fault, which says why. */
+export interface Measures {
+  entity: number;
+  revision: number;
+  unit: string;
+  lower: (number | null)[];
+  upper: (number | null)[];
+  volume?: Interval;
+  area?: Interval;
+  centroid?: [Interval, Interval, Interval];
+  fault?: string;
 }
 
 export interface Region {

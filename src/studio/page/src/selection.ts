@@ -14,7 +14,8 @@ export class Selection {
   selected: Span | null = null;
 
   constructor(private readonly tree: Tree, private readonly sheet: PropertySheet,
-              private readonly selectText: (span: Span) => void) {}
+              private readonly selectText: (span: Span) => void,
+              private readonly changed: (span: Span | null) => void) {}
 
   /** Takes a new tree, and selects in it what is at the cursor. */
   set(nodes: TreeNode[], cursor: number): void {
@@ -56,6 +57,7 @@ export class Selection {
   private show(index: number): void {
     this.tree.select(index);
     this.selected = this.nodes[index]?.span ?? null;
+    this.changed(this.nodes[index]?.kind === 'scene' ? null : this.selected);
     let object = index;
     while (object >= 0 && !['object', 'settings'].includes(this.nodes[object]!.kind))
       object = this.nodes[object]!.parent;

@@ -24,6 +24,8 @@ export interface ControlsHost {
   boundsChanged(): void;
   /** Says whether the next drag in the picture chooses a region. */
   regionWanted(isWanted: boolean): void;
+  /** Says whether clicks measure how far places are apart. */
+  rulerWanted(isWanted: boolean): void;
 }
 
 export class ViewControls {
@@ -36,6 +38,7 @@ export class ViewControls {
   private readonly region: HTMLButtonElement;
   private readonly whole: HTMLButtonElement;
   private readonly all: HTMLButtonElement;
+  private readonly ruler: HTMLButtonElement;
   private readonly bounds: HTMLInputElement;
   private readonly cutters: HTMLInputElement;
   private readonly place = document.createElement('output');
@@ -60,6 +63,8 @@ export class ViewControls {
       state.set({region: null}));
     this.all = button('Show all', 'Show what was hidden in the scene tree', () =>
       state.set({hidden: []}));
+    this.ruler = button('Measure', 'Click two places, to see how far they are apart', () =>
+      this.wantRuler(this.ruler.getAttribute('aria-pressed') !== 'true'));
     this.cutters = input('checkbox', 'Cutters', '', () => host.boundsChanged());
     const bounds = labelled('Bounds');
     bounds.title = 'Draw the boxes around entities';
@@ -68,11 +73,23 @@ export class ViewControls {
     cutters.title = 'Draw the boxes around what is cut away';
     cutters.prepend(this.cutters);
     this.element.append(this.mode, this.channel, bounds, cutters, this.section.element, comparison.controls,
-                        this.region, this.whole, this.all, this.display.element,
+                        this.region, this.whole, this.all, this.ruler, this.display.element,
                         this.time.element, this.place);
     this.place.title = 'Where the picture was clicked last';
     this.region.setAttribute('aria-pressed', 'false');
+    this.ruler.setAttribute('aria-pressed', 'false');
     this.update();
+  }
+
+  /** Lets clicks measure how far places are apart, or not. */
+  wantRuler(isWanted: boolean): void {
+    this.ruler.setAttribute('aria-pressed', String(isWanted));
+    this.host.rulerWanted(isWanted);
+  }
+
+  /** Shows a text where that of the last click stands. */
+  say(text: string): void {
+    this.place.textContent = text;
   }
 
   private get wantsRegion(): boolean {
