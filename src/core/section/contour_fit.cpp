@@ -124,8 +124,7 @@ class ContourFit {
   }
 
   std::optional<FittedContour> whole_circle(bool has_corner) const {
-    if (auto circle = fit_circle(points_, {.points = exact_, .between = tolerance_}))
-      return circle;
+    if (auto circle = fit_circle(points_, {.points = exact_, .between = tolerance_})) return circle;
     if (has_corner) return {};
     return fit_circle(points_, {.points = tolerance_, .between = tolerance_});
   }
@@ -198,7 +197,7 @@ class ContourFit {
     double most_off = 0;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       const Segment& gap = segments_[i];
-      std::optional<Joint> joint;
+      std::optional<TangentJoint> joint;
       const Segment& after = segments_[(i + 1) % segments_.size()];
       if (i > 0 && segments_.size() > 2 && segments_[i - 1].is_sure() && after.is_sure() &&
           !is_corner(gap.first) && !is_corner(gap.last)) {

@@ -88,17 +88,17 @@ std::optional<PlanePoint> touching_point(const ContourPiece& a, const ContourPie
 
 }  // namespace
 
-std::optional<Joint> joint_between(const ContourPiece& before, const ContourPiece& gap,
-                                   const ContourPiece& after, double exact) {
+std::optional<TangentJoint> joint_between(const ContourPiece& before, const ContourPiece& gap,
+                                          const ContourPiece& after, double exact) {
   const double chord = gap.chord();
   if (!(chord > 0) || chord > short_share * std::min(before.chord(), after.chord())) return {};
   const std::optional<PlanePoint> place = touching_point(before, after, gap, chord, exact);
   if (!place) return {};
   const double first = distance_between(gap.from, *place);
   const double last = distance_between(*place, gap.to);
-  Joint joint{.place = *place,
-              .first_bulge = std::copysign(small_bulge(before, first), before.bulge),
-              .last_bulge = std::copysign(small_bulge(after, last), after.bulge)};
+  TangentJoint joint{.place = *place,
+                     .first_bulge = std::copysign(small_bulge(before, first), before.bulge),
+                     .last_bulge = std::copysign(small_bulge(after, last), after.bulge)};
   joint.off = distance_from_chord(gap, *place) + chord * std::abs(gap.bulge) +
               first * std::abs(joint.first_bulge) + last * std::abs(joint.last_bulge) + 2 * exact;
   return joint;

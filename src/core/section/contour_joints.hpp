@@ -16,9 +16,9 @@ struct FittedPiece {
   bool begins_at_corner = false;
 };
 
-/// A Joint is where one piece touches another, with the bulges of what both have between that and
-/// the ends of a gap.
-struct Joint {
+/// A TangentJoint is where one piece touches another, with the bulges of what both have between
+/// that and the ends of a gap.
+struct TangentJoint {
   PlanePoint place;
   double first_bulge = 0;
   double last_bulge = 0;
@@ -26,8 +26,8 @@ struct Joint {
 };
 
 /// Finds where two pieces touch, to `exact`, in a short gap between them.
-std::optional<Joint> joint_between(const ContourPiece& before, const ContourPiece& gap,
-                                   const ContourPiece& after, double exact);
+std::optional<TangentJoint> joint_between(const ContourPiece& before, const ContourPiece& gap,
+                                          const ContourPiece& after, double exact);
 
 /// Moves the common ends of pieces to where the pieces touch, to `exact`, by no more than
 /// `tolerance` from what they were. Returns how far something is from that.
