@@ -35,7 +35,7 @@ struct NearFaces {
     /// A point of the box is in the solid if one of these functions is below 0 there, and not in it
     /// if all of them are above.
     where_any_negative,
-    /// Whether a point of the box is in the solid follows from `inside`: bit m says so of where
+    /// A point of the box is in the solid if `inside` says so: its bit m is that of points where
     /// exactly the functions of those of `faces` are below 0 whose bits are set in m.
     by_signs,
     /// Nothing is known, but that no other faces than `faces` are in the box. If these are none,
