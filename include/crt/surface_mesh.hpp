@@ -38,7 +38,7 @@ struct SurfaceMesh {
 /// units and above 0. The mesh is closed: at each edge of a triangle lies one other. Corners lie on
 /// the surface, and sharp edges of the solid are edges of triangles, but for rounding. Of the
 /// options the width is not used. The mesh is the same, to the last bit, for any number of threads
-/// and on any machine, unless time ends the search. That also ends after about two million boxes.
+/// and on any machine, unless time ends the search. That also ends after about a million boxes.
 /// Then the mesh is as good as it is, and its deviation infinite. So it is where surfaces touch
 /// without crossing, or where nothing is known of them, as of Custom shapes. Throws Error as
 /// volume() does. Any thread may call it.

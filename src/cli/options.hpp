@@ -98,6 +98,9 @@ struct CheckRequest : CommonRequest {
   std::vector<std::filesystem::path> scenes;
 };
 
+/// A SolidMeasure is what `crt trade` measures of solids. `mass` is all of the mass properties.
+enum class SolidMeasure { volume, area, mass };
+
 struct TradeRequest : CommonRequest {
   std::filesystem::path scene;
   /// The command writes this name with .csv and .svg.
@@ -113,6 +116,8 @@ struct TradeRequest : CommonRequest {
   // These are the user's questions.
   std::optional<double> budget;
   std::optional<double> error;
+  /// Measures solids instead of pictures.
+  std::optional<SolidMeasure> measure;
 };
 
 /// A SectionPlane is {p : normal . p / |normal| = offset}.

@@ -6,6 +6,7 @@
 
 #include "cli/option_table.hpp"
 #include "cli/option_values.hpp"
+#include "cli/trade_solids.hpp"
 
 namespace crt::cli {
 
@@ -19,11 +20,21 @@ of the pixels stay below, in steps of an 8-bit picture. By default it measures b
 with about 30000 pixels together; all seconds are those that the whole picture would take. It takes
 half a minute to some minutes, which --most-seconds and --pixels make less.
 
+With --measure it measures the scene's solids instead, to ever narrower widths, and the plot shows
+the seconds against the width of the interval.
+
 Examples:
   crt trade scene.crt                      scene-trade.csv and scene-trade.svg
   crt trade scene.crt --budget 10          and the most accurate setting for 10 seconds a picture
   crt trade scene.crt --error 0.5          and the fastest within half a step
-  crt trade film.crt --time 12 --region 100,80,200,100 -o part)";
+  crt trade film.crt --time 12 --region 100,80,200,100 -o part
+  crt trade part.crt --measure volume      and how narrow bounds of the volume are for what time)";
+
+SolidMeasure parse_solid_measure(const std::string& text) {
+  for (const SolidMeasureName& known : solid_measure_names)
+    if (known.name == text) return known.measure;
+  throw WrongValue("--measure", "volume, area or mass", text);
+}
 
 }  // namespace
 
@@ -55,6 +66,12 @@ CommandTable trade_table(TradeRequest& request) {
                     request.error = parse_positive("--error", text);
                   }});
   add_region_row(rows, request.region, "measures only this part of the picture");
+  rows.push_back({.names = "--measure",
+                  .type = "WHAT",
+                  .help = "measures solids instead of pictures: volume, area or mass",
+                  .take = [&request](const std::string& text) {
+                    request.measure = parse_solid_measure(text);
+                  }});
   rows.push_back({.names = "--pixels",
                   .type = "N",
                   .help = fmt::format("measures about so many pixels ({:.0f})", request.pixels),

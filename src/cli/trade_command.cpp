@@ -17,6 +17,7 @@
 #include "cli/trade_ladder.hpp"
 #include "cli/trade_measure.hpp"
 #include "cli/trade_report.hpp"
+#include "cli/trade_solids.hpp"
 
 namespace crt::cli {
 
@@ -66,7 +67,11 @@ class Trade {
     }
     try {
       check_writable(with_ending(".csv"));
-      if (prepare_scene()) measure_and_tell();
+      if (request_.measure) {
+        trade_solids(request_, with_ending(""), reporter_);
+      } else if (prepare_scene()) {
+        measure_and_tell();
+      }
     } catch (const Error& error) {
       reporter_.add(error);
     }

@@ -3,30 +3,14 @@
 #include <crt/elementary.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <string_view>
 
+#include "cli/trade_drawing.hpp"
 #include "cli/trade_report.hpp"
 
 namespace crt::cli {
 
 namespace {
-
-/// A Place has x to the right and y down.
-struct Place {
-  double x = 0;
-  double y = 0;
-};
-
-/// An Ink is a colour as SVG writes it.
-using Ink = std::string_view;
-
-constexpr Ink frame_ink = "#888888";
-constexpr Ink grid_ink = "#dddddd";
-constexpr Ink uncertain_ink = "#d68910";
-constexpr Ink best_ink = "#1e1e1e";
-constexpr Ink text_ink = "#1e1e1e";
 
 struct FamilyInk {
   Family family;
@@ -38,101 +22,6 @@ constexpr FamilyInk family_inks[] = {{Family::grid, "#1f5fa8"},
                                      {Family::depth, "#2e8b57"},
                                      {Family::precision, "#8e44ad"},
                                      {Family::as_given, "#1e1e1e"}};
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
-/// A Drawing is the text of an SVG file.
-class Drawing {
- public:
-  /// Begins with a white area.
-  Drawing(double width, double height) {
-    constexpr double font_size = 11;
-    svg_ = fmt::format(
-        "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' "
-        "font-family='sans-serif' font-size='{2}'>\n<rect width='100%' height='100%' "
-        "fill='white'/>\n",
-        width, height, font_size);
-  }
-
-  void line(const Place& from, const Place& to, Ink ink, double width = 1) {
-    curve({from, to}, ink, width);
-  }
-
-  void curve(const std::vector<Place>& places, Ink ink, double width) {
-    std::string corners;
-    for (const Place& place : places) corners += fmt::format(" {:.1f},{:.1f}", place.x, place.y);
-    svg_ += fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='{}'/>\n",
-                        corners.substr(1), ink, width);
-  }
-
-  void disc(const Place& center, double radius, Ink ink) {
-    svg_ += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}'/>\n", center.x, center.y,
-                        radius, ink);
-  }
-
-  void ring(const Place& center, double radius, Ink ink) {
-    svg_ += fmt::format(
-        "<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='none' stroke='{}' stroke-width='1.2'/>\n",
-        center.x, center.y, radius, ink);
-  }
-
-  /// Writes a text. `place` is on the line that it stands on, and at the text's `anchor`: "start",
-  /// "middle" or "end".
-  void text(const Place& place, const std::string& text, std::string_view anchor = "start",
-            bool upwards = false) {
-    const std::string turn =
-        upwards ? fmt::format(" transform='rotate(-90 {:.1f} {:.1f})'", place.x, place.y) : "";
-    svg_ += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' fill='{}'{}>{}</text>\n",
-                        place.x, place.y, anchor, text_ink, turn, escaped(text));
-  }
-
-  std::string svg() const { return svg_ + "</svg>\n"; }
-
- private:
-  std::string svg_;
-};
-
-/// Decades are the powers of ten from `low` to `high`.
-struct Decades {
-  int low = 0;
-  int high = 1;
-
-  /// Returns 0 at the low end and 1 at the high one.
-  double share(double value) const {
-    const double least = elementary::pow(10.0, low);
-    return (elementary::log10(std::max(value, least)) - low) / (high - low);
-  }
-};
-
-/// Returns the decades that hold all values. A value that is too near 0 for a logarithm is at the
-/// low end.
-Decades decades_of(const std::vector<double>& values) {
-  constexpr double least = 1e-4;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  Decades decades;
-  decades.low = static_cast<int>(std::floor(elementary::log10(std::max(*low, least))));
-  decades.high = std::max(static_cast<int>(std::ceil(elementary::log10(std::max(*high, least)))),
-                          decades.low + 1);
-  return decades;
-}
-
-std::string power_of_ten(int exponent) {
-  return fmt::format("{:g}", elementary::pow(10.0, exponent));
-}
 
 /// A Panel shows one error against seconds.
 class Panel {

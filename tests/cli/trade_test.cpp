@@ -57,6 +57,38 @@ TEST_CASE("crt trade measures a ladder: more samples cost more and are nearer to
   CHECK(folder.read("ball-trade.svg").starts_with("<svg "));
 }
 
+TEST_CASE("crt trade shows what narrower bounds of a measure cost") {
+  const TemporaryFolder folder;
+  folder.write("ball.crt", ball_script);
+  const Outcome run = run_crt(
+      folder, {"trade", "ball.crt", "--measure", "volume", "-o", "ball", "--most-seconds", "2"});
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  CHECK(folder.names() == std::vector<std::string>{"ball.crt", "ball.csv", "ball.svg"});
+  std::istringstream lines(folder.read("ball.csv"));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "relative_width,reached,seconds,lower,upper");
+  int count = 0;
+  double asked_before = 1;
+  double lower_before = 0;
+  for (; std::getline(lines, line); ++count) {
+    std::istringstream fields(line);
+    std::vector<double> numbers;
+    for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::stod(field));
+    REQUIRE(numbers.size() == 5);
+    CHECK(numbers[0] < asked_before);
+    CHECK(numbers[1] <= 1.01 * numbers[0]);
+    CHECK(numbers[3] >= lower_before);
+    CHECK(numbers[4] > numbers[3]);
+    asked_before = numbers[0];
+    lower_before = numbers[3];
+  }
+  CHECK(count > 3);
+  CHECK(folder.read("ball.svg").starts_with("<svg "));
+  CHECK(run_crt(folder, {"trade", "ball.crt", "--measure", "smell"}).exit_code == 2);
+}
+
 TEST_CASE("crt trade measures the given part") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);

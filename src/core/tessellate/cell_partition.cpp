@@ -12,7 +12,7 @@ namespace crt::core {
 
 namespace {
 
-constexpr std::size_t most_nodes = std::size_t{1} << 21;
+constexpr std::size_t most_nodes = std::size_t{1} << 20;
 constexpr std::size_t nodes_of_task = 32;
 
 Vec3 middle_of(const std::array<Interval, 3>& slopes) {
