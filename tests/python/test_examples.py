@@ -1,5 +1,6 @@
 """These tests run the example programs in Python."""
 
+import math
 import sys
 import tempfile
 import unittest
@@ -11,6 +12,7 @@ from support import SOURCE
 sys.path.insert(0, str(SOURCE / "examples/python"))
 import golf  # noqa: E402
 import histories  # noqa: E402
+import measured  # noqa: E402
 import tutorial_measure  # noqa: E402
 import tutorial_rays  # noqa: E402
 import tutorial_render  # noqa: E402
@@ -45,6 +47,92 @@ class Histories(unittest.TestCase):
         self.assertEqual(lost, 0)
         self.assertGreater(steps, 200_000)
         np.testing.assert_allclose(paths / paths.sum(), histories.true_shares(), atol=5e-3)
+
+
+def housing_volume() -> float:
+    """Returns the volume of housing.crt in closed form, but for the duct, which is an integral."""
+    foot = 110 * 14 - 2 * 3 * 3 / 2  # without chamfers
+    hub_in_web = 22 * math.sqrt(900 - 484) + 900 * math.asin(22 / 30)
+    outline = foot + 44 * (50 - 14) + 900 * math.pi - hub_in_web
+    bores = math.pi * (21**2 * 12 + 17**2 * 16)
+    drilled = math.pi * (3**2 * 44 + 2 * 4.5**2 * 14)
+    # The duct ends at two cylinders across it. With x = 2 sin(angle) the integrand is periodic, and
+    # the trapezoidal rule finds all digits.
+    sine = np.sin(2 * math.pi * np.arange(64) / 64)
+    height = np.sqrt(900 - 4 * sine**2) - np.sqrt(441 - 4 * sine**2)
+    duct = 4 * math.pi * 2 * np.mean((1 - sine**2) * height)
+    return 28 * outline - bores - drilled - float(duct)
+
+
+class Measured(unittest.TestCase):
+    """The program whose results docs/measured.md shows."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        cls.scene = measured.load()
+        cls.part, cls.screw = cls.scene.entities[:2]
+        cls.found = measured.measure(cls.part, cls.screw)
+        cls.section = measured.draw(cls.part, cls.folder / "housing.svg")
+        cls.files = [cls.folder / "housing.stl", cls.folder / "housing.3mf"]
+        cls.surface = measured.export(cls.part, cls.files)
+
+    def test_intervals_hold_the_closed_forms(self):
+        self.assertIn(housing_volume(), self.found.volume)
+        self.assertLess(self.found.volume.width, 0.2)
+        self.assertIn(1, self.found.wall.least)
+        self.assertLess(self.found.wall.least.width, 2e-3)
+        self.assertIn(0.3, self.found.screw.distance)
+        self.assertGreater(self.found.screw.distance.lower, 0.1)
+        self.assertIn(2.7, self.found.driver.distance)
+        self.assertLess(self.found.driver.distance.width, 1e-3)
+        low, high = self.found.box
+        np.testing.assert_allclose(low, (-55, 0, 0), atol=1e-4)
+        np.testing.assert_allclose(high, (55, 80, 28), atol=1e-4)
+
+    def test_the_area_of_triangles_is_nearly_that_of_the_part(self):
+        a, b, c = np.moveaxis(self.surface.positions[self.surface.triangles], 1, 0)
+        area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+        self.assertAlmostEqual(area / self.found.area.middle, 1, delta=2e-3)
+
+    def test_the_thinnest_wall_is_between_channel_and_seat(self):
+        ends = sorted((self.found.wall.start, self.found.wall.end), key=lambda end: end[1])
+        np.testing.assert_allclose(ends, [(0, 28, 6), (0, 29, 6)], atol=0.5)
+        self.assertIn(2, measured.load(channel=26).entities[0].thickness(1e-3).least)
+
+    def test_the_section_has_its_closed_form_and_is_hatched(self):
+        area = 28 * 80 - 12 * 42 - 16 * 34 - 4 * 9 - 9 * math.pi
+        self.assertIn(area, self.section.area)
+        self.assertLess(self.section.area.width, 1e-3)
+        self.assertLessEqual(self.section.deviation, 1e-3)
+        drawing = (self.folder / "housing.svg").read_text()
+        self.assertIn('width="28.7mm" height="80.7mm"', drawing)
+        self.assertGreater(drawing.count("L"), 40)
+
+    def test_files_are_read_again_as_the_same_triangles(self):
+        self.assertLessEqual(self.surface.deviation, 0.05)
+        for file in self.files:
+            with self.subTest(file.name):
+                read = crt.load_mesh(file)
+                self.assertTrue(read.is_solid)
+                self.assertEqual(read.primitive_count, len(self.surface.triangles))
+                self.assertEqual(crt.mesh_report(read).warnings, [])
+                off = abs(read.volume(1e-3).middle - self.found.volume.middle)
+                self.assertLess(off, self.surface.deviation * self.found.area.upper)
+
+    def test_the_page_shows_what_is_printed(self):
+        printed = "\n".join(measured.report(self.found, self.section, self.surface))
+        page = (SOURCE / "docs/measured.md").read_text()
+        self.assertIn(f"<!-- printed by measured.py -->\n```\n{printed}\n```\n", page)
+
+    def test_arrows_point_at_the_wall_in_a_picture_of_the_part_cut_open(self):
+        cut = measured.cut_open(self.scene, self.found.wall)
+        red, green, blue = np.moveaxis(small(cut).render().pixels[:, :, :3], 2, 0)
+        self.assertGreater((red > 3 * np.maximum(green, blue)).sum(), 100)
+        self.assertGreater((np.minimum(red, green) > 3 * blue).sum(), 5)
+        self.assertEqual(len(self.scene.entities), 4)
 
 
 def small(scene: crt.Scene) -> crt.Scene:
