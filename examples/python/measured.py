@@ -1,4 +1,4 @@
-"""Measures a part: what a script makes becomes numbers, pictures, a drawing, and files for a slicer.
+"""Measures a part: a script becomes numbers, pictures, a drawing, and files for a slicer.
 
     measured.py [FOLDER]
 

@@ -12,7 +12,7 @@ LEFT_OUT = re.compile(r"^ *(?://|#) \.\.\.\n", re.MULTILINE)
 class Tutorials(unittest.TestCase):
     def test_code_stands_in_the_file_that_is_named_above_it(self):
         pages = {
-            "tutorial": 11, "tutorial_cpp": 6, "tutorial_python": 7, "measure": 6, "measured": 6
+            "tutorial": 11, "tutorial_cpp": 6, "tutorial_python": 7, "measure": 7, "measured": 6
         }
         for name, least in pages.items():
             page = (SOURCE / f"docs/{name}.md").read_text()

@@ -53,7 +53,7 @@ def housing_volume() -> float:
     """Returns the volume of housing.crt in closed form, but for the duct, which is an integral."""
     foot = 110 * 14 - 2 * 3 * 3 / 2  # without chamfers
     hub_in_web = 22 * math.sqrt(900 - 484) + 900 * math.asin(22 / 30)
-    outline = foot + 44 * (50 - 14) + 900 * math.pi - hub_in_web
+    silhouette = foot + 44 * (50 - 14) + 900 * math.pi - hub_in_web
     bores = math.pi * (21**2 * 12 + 17**2 * 16)
     drilled = math.pi * (3**2 * 44 + 2 * 4.5**2 * 14)
     # The duct ends at two cylinders across it. With x = 2 sin(angle) the integrand is periodic, and
@@ -61,7 +61,7 @@ def housing_volume() -> float:
     sine = np.sin(2 * math.pi * np.arange(64) / 64)
     height = np.sqrt(900 - 4 * sine**2) - np.sqrt(441 - 4 * sine**2)
     duct = 4 * math.pi * 2 * np.mean((1 - sine**2) * height)
-    return 28 * outline - bores - drilled - float(duct)
+    return 28 * silhouette - bores - drilled - float(duct)
 
 
 class Measured(unittest.TestCase):
