@@ -57,7 +57,7 @@ WidthRung measured_to(double asked, SolidMeasure measure, const std::vector<Enti
   return rung;
 }
 
-std::string text_of(const std::vector<WidthRung>& rungs) {
+std::string table_of(const std::vector<WidthRung>& rungs) {
   std::string text =
       fmt::format("{:>9} {:>12} {:>10}   {}\n", "seconds", "width asked", "reached", "between");
   for (const WidthRung& rung : rungs) {
@@ -67,7 +67,7 @@ std::string text_of(const std::vector<WidthRung>& rungs) {
   return text;
 }
 
-std::string csv_of(const std::vector<WidthRung>& rungs) {
+std::string rungs_csv(const std::vector<WidthRung>& rungs) {
   std::string csv = "relative_width,reached,seconds,lower,upper\n";
   for (const WidthRung& rung : rungs) {
     csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.17g},{:.17g}\n", rung.asked, rung.reached,
@@ -76,7 +76,7 @@ std::string csv_of(const std::vector<WidthRung>& rungs) {
   return csv;
 }
 
-std::string plot_of(const std::vector<WidthRung>& rungs, const std::string& title) {
+std::string rungs_plot(const std::vector<WidthRung>& rungs, const std::string& title) {
   constexpr double width = 480;
   constexpr double height = 330;
   constexpr double left = 64;
@@ -159,7 +159,7 @@ void trade_solids(const TradeRequest& request, const std::filesystem::path& name
                 "nothing is known of it within the seconds: give it more by --most-seconds");
   }
   std::erase_if(rungs, [](const WidthRung& rung) { return !std::isfinite(rung.reached); });
-  if (!request.quiet) reporter.print(text_of(rungs));
+  if (!request.quiet) reporter.print(table_of(rungs));
   const auto with_ending = [&](const char* ending) {
     std::filesystem::path path = name;
     path += ending;
@@ -167,8 +167,8 @@ void trade_solids(const TradeRequest& request, const std::filesystem::path& name
   };
   const std::string title =
       fmt::format("{}: {}", request.scene.filename().string(), name_of(*request.measure));
-  write_file(with_ending(".csv"), csv_of(rungs));
-  write_file(with_ending(".svg"), plot_of(rungs, title));
+  write_file(with_ending(".csv"), rungs_csv(rungs));
+  write_file(with_ending(".svg"), rungs_plot(rungs, title));
   reporter.note(fmt::format("{}: the table; {}: the plot", with_ending(".csv").string(),
                             with_ending(".svg").string()));
 }

@@ -28,7 +28,6 @@ double tenths_of_millimetre(Unit unit) {
   return 254;
 }
 
-
 /// More calls than this do not fit on an ordinary thread's stack.
 constexpr std::size_t deepest_calls = 1000;
 

@@ -3,13 +3,16 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/shape.hpp"
 #include "core/math/vector.hpp"
 #include "crt/field.hpp"
 #include "geometry/face_tools.hpp"
+#include "geometry/random.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -94,4 +97,60 @@ TEST_CASE("the second nappe of a cone that is turned is not taken for a part of 
   functions->look({Interval{0.0625, 0.5}, Interval{1, 1.75}, Interval{-0.01, 0.01}}, near);
   CHECK(near.kind != NearFaces::Kind::inside);
   CHECK(said_of(*functions, near, {0.0625, 1.5, 0}) != true);
+}
+
+TEST_CASE("where pieces of a profile go over into each other it is known which of them counts") {
+  // A slot: two straight sides, and half circles that go on from them.
+  const Contour slot = {{-2, -1}, {2, -1, 1}, {2, 1}, {-2, 1, 1}};
+  const Contour ring = {{3, 0}, {4, 0, 1}, {4, 1}, {3, 1, 1}};
+  const auto extruded =
+      core::make_shape(Extrusion{.profile = make_profile(std::vector<Contour>{slot})});
+  const auto turned =
+      core::make_shape(Revolution{.profile = make_profile(std::vector<Contour>{ring})});
+  struct Place {
+    const core::Shape* shape;
+    Vec3 joint;
+  };
+  const std::vector<Place> places = {{extruded.get(), {2, -1, 0.5}},
+                                     {extruded.get(), {-2, 1, 0.5}},
+                                     {turned.get(), {4, 0, 0}},
+                                     {turned.get(), {3, 1, 0}}};
+  Random random(4);
+  for (const Place& place : places) {
+    CAPTURE(place.joint.x);
+    const auto functions = place.shape->face_functions();
+    for (const double half : {0.05, 1e-3, 1e-6}) {
+      CAPTURE(half);
+      NearFaces near;
+      const Vec3 middle = place.joint + 0.9 * half * Vec3(random.in_cube().x, 0.3, 0);
+      functions->look(box_about(middle, Vec3(half)), near);
+      REQUIRE(near.kind == NearFaces::Kind::by_signs);
+      for (int i = 0; i < 200; ++i) {
+        const Vec3 point = middle + half * random.in_cube();
+        const double x = place.shape == turned.get() ? std::hypot(point.x, point.z) - 3.5 : point.x;
+        const double y = place.shape == turned.get() ? 2 * point.y - 1 : point.y;
+        const double scale = place.shape == turned.get() ? 2 : 1;
+        const double straight = place.shape == turned.get() ? 1 : 2;
+        const double along = std::max(std::abs(scale * x) - straight, 0.0);
+        const std::optional<bool> said = said_of(*functions, near, point);
+        const double off = std::hypot(along, y) - 1;
+        if (std::abs(off) > 1e-12) CHECK(said == (off < 0));
+      }
+    }
+  }
+}
+
+TEST_CASE("a corner is known however near it is to the side of a box") {
+  const auto profile = profile_of({{1, 0}, {2, 0}, {2, 2.85}, {1.85, 3}, {1, 3}});
+  const auto shape = core::make_shape(Revolution{.profile = profile});
+  const auto functions = shape->face_functions();
+  for (const double share : {0.5, 0.1, 1e-3, 1e-6}) {
+    CAPTURE(share);
+    NearFaces near;
+    functions->look({Interval{1.99, 2 + 0.01 * share}, Interval{2.84, 2.85 + 0.01 * share},
+                     Interval{-1e-9, 1e-9}},
+                    near);
+    CHECK(near.kind == NearFaces::Kind::where_all_negative);
+    CHECK(near.faces.size() == 2);
+  }
 }

@@ -47,9 +47,9 @@ class Maker:
         if kind == 1:
             return crt.Sphere(center=a, radius=size)
         if kind == 2:
-            return crt.Cylinder(from_=a, to=a + 2 * size * axis, radius=0.5 * size)
+            return crt.Cylinder(a, a + 2 * size * axis, radius=0.5 * size)
         if kind == 3:
-            return crt.Cone(from_=a, to=a + size * axis, radius=size, radius2=0.25 * size)
+            return crt.Cone(a, a + size * axis, radius=size, radius2=0.25 * size)
         return crt.Torus(center=a, axis=axis, radius=size, thickness=0.25 * size)
 
     def tree(self, depth: int, on_grid: bool) -> crt.Entity:

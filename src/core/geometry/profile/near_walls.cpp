@@ -224,20 +224,20 @@ void RegionLook::look_at_joint(std::uint32_t piece, std::uint32_t next, NearFace
   const double cosine = glm::dot(joint.before, joint.after);
   constexpr double of_30_degrees = 0.86;
   if (cosine < -of_30_degrees) return;
-  CutBox box(rectangle());
-  box.add(cut_of(piece));
-  box.add(cut_of(next));
-  if (cosine < of_30_degrees) {
-    // The lines and circles cross there alone.
-    return box.look([&](const Vec3& point) { return is_inside(point); }, near);
-  }
   const std::optional<bool> is_left = is_region_left(piece, next, joint);
   if (!is_left) return;
+  const std::uint32_t before = face_beside(piece, *is_left);
+  const std::uint32_t after = face_beside(next, *is_left);
+  if (cosine < of_30_degrees) {
+    // The lines or circles cross there alone.
+    const bool turns_left = joint.before.x * joint.after.y > joint.before.y * joint.after.x;
+    return near.say(turns_left == *is_left ? NearFaces::Kind::where_all_negative
+                                           : NearFaces::Kind::where_any_negative,
+                    {before, after});
+  }
   // Bits 0 and 1 are those of the pieces, and bit 2 says that the first of them counts.
   constexpr std::uint32_t first_or_second = 0xac;
-  near.say_by_signs(
-      {face_beside(piece, *is_left), face_beside(next, *is_left), face_of_joint(profile_, piece)},
-      first_or_second);
+  near.say_by_signs({before, after, face_of_joint(profile_, piece)}, first_or_second);
 }
 
 bool RegionLook::is_left_below(std::uint32_t piece) const {
@@ -356,7 +356,7 @@ void RegionLook::look(NearFaces& near) {
       cut_box_.look(is_point_inside, near);
     }
   }
-  if (near.kind == NearFaces::Kind::unknown && (has_arcs_ || failed_)) look_at_joint(near);
+  if (near.kind == NearFaces::Kind::unknown) look_at_joint(near);
   if (near.kind == NearFaces::Kind::unknown) near.faces.assign(&faces_[0], &faces_[listed_]);
 }
 
