@@ -91,18 +91,18 @@ Examples:
                     request.density = parse_positive("--density", text);
                     request.mass = true;
                   }});
-  rows.push_back({.names = "--distance",
-                  .type = "A,B",
-                  .help = "how near two entities are, by their numbers; can be given repeatedly",
-                  .take =
-                      [&request](const std::string& text) {
-                        const std::size_t comma = text.find(',');
-                        if (comma == std::string::npos || text.find(',', comma + 1) != text.npos)
-                          throw WrongValue("--distance", "two entities, such as 0,1", text);
-                        request.distances.emplace_back(text.substr(0, comma),
-                                                       text.substr(comma + 1));
-                      },
-                  .repeatable = true});
+  rows.push_back(
+      {.names = "--distance",
+       .type = "A,B",
+       .help = "how near two entities are, by their numbers; can be given repeatedly",
+       .take =
+           [&request](const std::string& text) {
+             const std::size_t comma = text.find(',');
+             if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos)
+               throw WrongValue("--distance", "two entities, such as 0,1", text);
+             request.distances.emplace_back(text.substr(0, comma), text.substr(comma + 1));
+           },
+       .repeatable = true});
   add_flag("--interference", request.interference, "which entities overlap, and by how much");
   add_section_rows(rows, request);
   rows.push_back({.names = "--relative-width",

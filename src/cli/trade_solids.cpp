@@ -87,6 +87,8 @@ std::string rungs_plot(const std::vector<WidthRung>& rungs, const std::string& t
   constexpr Ink ink = "#1f5fa8";
   std::vector<double> seconds;
   std::vector<double> widths;
+  seconds.reserve(rungs.size());
+  widths.reserve(rungs.size());
   for (const WidthRung& rung : rungs) {
     seconds.push_back(rung.seconds);
     widths.push_back(rung.reached);
@@ -112,6 +114,7 @@ std::string rungs_plot(const std::vector<WidthRung>& rungs, const std::string& t
   drawing.text({(left + right) / 2, bottom + 34}, "seconds", "middle");
   drawing.text({14, (top + bottom) / 2}, "width of the interval, relative", "middle", true);
   std::vector<Place> places;
+  places.reserve(rungs.size());
   for (const WidthRung& rung : rungs) places.push_back({x(rung.seconds), y(rung.reached)});
   drawing.curve(places, ink, 2);
   constexpr double dot_radius = 3.5;

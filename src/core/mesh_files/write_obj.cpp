@@ -20,7 +20,11 @@ std::string obj_bytes(const SurfaceFile& file) {
   std::uint64_t first = 1;  // the corners of all parts count from there
   for (const SurfacePart& part : file.parts) {
     const std::string name = obj_name(part.name);
-    text += "o " + name + "\ng " + name + "\n";
+    for (const char* const keyword : {"o ", "g "}) {
+      text += keyword;
+      text += name;
+      text += '\n';
+    }
     for (const Vec3& position : part.mesh->positions) {
       text += 'v';
       for (int axis = 0; axis < 3; ++axis) {
