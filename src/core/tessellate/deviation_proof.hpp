@@ -23,9 +23,9 @@ class DeviationProof {
       : solid_(solid), partition_(partition), mesh_(mesh), deviation_(deviation), boxes_(mesh) {}
 
   double deviation() const { return deviation_; }
-  /// Returns whether a triangle of the mesh, or one between some corners, is surely near the
-  /// surface.
-  bool is_near_surface(std::uint32_t triangle) const;
+  /// Returns whether a triangle of the mesh by its number, or one between some corners, is surely
+  /// near the surface.
+  bool is_near_surface(std::uint32_t number) const;
   bool is_near_surface(const std::array<const DualVertex*, 3>& corners) const;
   /// Guesses whether it is worth while to ask so.
   bool may_be_near_surface(const std::array<const DualVertex*, 3>& corners) const;
