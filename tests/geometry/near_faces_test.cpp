@@ -101,8 +101,8 @@ TEST_CASE("the second nappe of a cone that is turned is not taken for a part of 
 
 TEST_CASE("where pieces of a profile go over into each other it is known which of them counts") {
   // A slot: two straight sides, and half circles that go on from them.
-  const Contour slot = {{-2, -1}, {2, -1, 1}, {2, 1}, {-2, 1, 1}};
-  const Contour ring = {{3, 0}, {4, 0, 1}, {4, 1}, {3, 1, 1}};
+  const Contour slot = {{-2, -1, 1}, {2, -1}, {2, 1, 1}, {-2, 1}};
+  const Contour ring = {{3, 0, 1}, {4, 0}, {4, 1, 1}, {3, 1}};
   const auto extruded =
       core::make_shape(Extrusion{.profile = make_profile(std::vector<Contour>{slot})});
   const auto turned =
