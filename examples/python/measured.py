@@ -49,7 +49,7 @@ def measure(part: crt.Entity, screw: crt.Entity) -> Measured:
         box=part.bounds,
         volume=part.volume(relative_width=1e-6),
         area=part.area(relative_width=1e-4),
-        wall=part.thickness(relative_width=1e-3),
+        wall=part.least_wall(relative_width=1e-3),
         screw=part.clearance(screw),
         driver=part.clearance(DRIVER, relative_width=1e-4),
     )

@@ -53,6 +53,7 @@ struct Section {
   std::array<double, 2> lower{};
   std::array<double, 2> upper{};
 
+  /// Returns whether the plane cuts nothing out of the solid.
   bool empty() const { return contours.empty(); }
 };
 

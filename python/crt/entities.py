@@ -212,12 +212,12 @@ class Entity(Handle):
         _arguments.instance(other, Entity, "clearance: other")
         return measures.clearance(self._handle, other._handle, relative_width)
 
-    def thickness(self, relative_width: SupportsFloat = 1e-2) -> Thickness:
+    def least_wall(self, relative_width: SupportsFloat = 1e-2) -> Thickness:
         """Returns how thin the solid's thinnest wall is: the shortest chord in it that is normal to
         the surface at one end and within 5 degrees of a normal at the other. So the edge of a box
         is no wall. The upper end is the length of a chord that is there. The lower end may be poor
         where curved walls of one thickness are large, and is 0 if there is an apex."""
-        return measures.thickness(self._handle, relative_width)
+        return measures.least_wall(self._handle, relative_width)
 
     def tessellate(self, deviation: SupportsFloat) -> SurfaceMesh:
         """Makes a closed mesh of the solid's surface, which is nowhere farther from it than the

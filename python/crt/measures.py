@@ -187,9 +187,9 @@ def clearance(a: Reference, b: Reference, relative_width: SupportsFloat) -> Clea
     return Clearance(distance.plain(), on_a, on_b)
 
 
-def thickness(entity: Reference, relative_width: SupportsFloat) -> Thickness:
+def least_wall(entity: Reference, relative_width: SupportsFloat) -> Thickness:
     """Returns how thin a solid's thinnest wall is."""
-    width = _arguments.number(relative_width, "thickness: relative_width")
+    width = _arguments.number(relative_width, "least_wall: relative_width")
     least, start, end = _Interval(), np.empty(3), np.empty(3)
     library.crt_entity_thickness(
         entity, width, ctypes.byref(least), start.ctypes.data, end.ctypes.data

@@ -101,7 +101,7 @@ class Measured(unittest.TestCase):
     def test_the_thinnest_wall_is_between_channel_and_seat(self):
         ends = sorted((self.found.wall.start, self.found.wall.end), key=lambda end: end[1])
         np.testing.assert_allclose(ends, [(0, 28, 6), (0, 29, 6)], atol=0.5)
-        self.assertIn(2, measured.load(channel=26).entities[0].thickness(1e-3).least)
+        self.assertIn(2, measured.load(channel=26).entities[0].least_wall(1e-3).least)
 
     def test_the_section_has_its_closed_form_and_is_hatched(self):
         area = 28 * 80 - 12 * 42 - 16 * 34 - 4 * 9 - 9 * math.pi

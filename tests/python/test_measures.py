@@ -158,20 +158,20 @@ class Distances(unittest.TestCase):
 
 class Thicknesses(unittest.TestCase):
     def test_the_wall_beside_a_bore_is_the_thinnest(self):
-        least, start, end = PLATE.thickness()
+        least, start, end = PLATE.least_wall()
         self.assertIn(0.5, least)
         self.assertLess(least.width, 0.006)
         np.testing.assert_allclose(np.linalg.norm(end - start), least.upper, rtol=1e-6)
 
     def test_a_corner_has_no_wall(self):
         corner = crt.Box((0, 0, 0), (1, 1, 1)) & crt.Plane((1, 1, 1), (0.3, 0.3, 0.3))
-        self.assertEqual(corner.thickness().least, (math.inf, math.inf))
+        self.assertEqual(corner.least_wall().least, (math.inf, math.inf))
 
     def test_wrong_widths_are_refused(self):
         with self.assertRaisesRegex(crt.Error, "relative_width"):
-            PLATE.thickness(2)
-        with self.assertRaisesRegex(TypeError, "thickness: relative_width"):
-            PLATE.thickness("thin")
+            PLATE.least_wall(2)
+        with self.assertRaisesRegex(TypeError, "least_wall: relative_width"):
+            PLATE.least_wall("thin")
 
 
 class Units(unittest.TestCase):
