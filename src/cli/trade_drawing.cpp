@@ -77,8 +77,27 @@ Decades decades_of(const std::vector<double>& values, double least) {
   return decades;
 }
 
-std::string power_of_ten(int exponent) {
-  return fmt::format("{:g}", elementary::pow(10.0, exponent));
+void LogAxes::draw(Drawing& drawing, const std::string& above, const std::string& name_across,
+                   const std::string& name_up, double name_x) const {
+  constexpr double text_below = 16;
+  const auto power_of_ten = [](int exponent) {
+    return fmt::format("{:g}", elementary::pow(10.0, exponent));
+  };
+  drawing.text({left, top - 12}, above);
+  for (int power = across.low; power <= across.high; ++power) {
+    const Place foot = at(elementary::pow(10.0, power), 0);
+    drawing.line(foot, {foot.x, top}, grid_ink);
+    drawing.text({foot.x, foot.y + text_below}, power_of_ten(power), "middle");
+  }
+  for (int power = up.low; power <= up.high; ++power) {
+    const Place foot = at(0, elementary::pow(10.0, power));
+    drawing.line(foot, {right, foot.y}, grid_ink);
+    drawing.text({foot.x - 6, foot.y + 4}, power_of_ten(power), "end");
+  }
+  drawing.curve({{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}},
+                frame_ink, 1);
+  drawing.text({(left + right) / 2, bottom + 34}, name_across, "middle");
+  drawing.text({name_x, (top + bottom) / 2}, name_up, "middle", true);
 }
 
 }  // namespace crt::cli

@@ -58,6 +58,22 @@ struct Decades {
 /// logarithm, is at the low end.
 Decades decades_of(const std::vector<double>& values, double least = 1e-4);
 
-std::string power_of_ten(int exponent);
+/// LogAxes are those of a plot whose axes are logarithmic. They have a frame in the drawing.
+struct LogAxes {
+  double left = 0;
+  double top = 0;
+  double right = 0;
+  double bottom = 0;
+  Decades across;
+  Decades up;
+
+  Place at(double x, double y) const {
+    return {left + (right - left) * across.share(x), bottom - (bottom - top) * up.share(y)};
+  }
+  /// Draws lines at the decades, the frame, and what the axes are; `above` is that of the frame.
+  /// The name of the axis upwards has its middle line at `name_x`.
+  void draw(Drawing& drawing, const std::string& above, const std::string& name_across,
+            const std::string& name_up, double name_x) const;
+};
 
 }  // namespace crt::cli

@@ -1,6 +1,5 @@
 // The plot of `crt trade` shows seconds against each of the two errors, both logarithmic.
 #include <fmt/format.h>
-#include <crt/elementary.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -38,12 +37,16 @@ class Panel {
       seconds.push_back(rung.seconds);
       errors.push_back(rung.error.*measure);
     }
-    seconds_ = decades_of(seconds);
-    errors_ = decades_of(errors);
+    axes_ = {.left = corner.x + left,
+             .top = corner.y + top,
+             .right = corner.x + right,
+             .bottom = corner.y + bottom,
+             .across = decades_of(seconds),
+             .up = decades_of(errors)};
   }
 
   void draw(const std::string& title) const {
-    draw_axes(title);
+    axes_.draw(drawing_, title, "seconds, whole picture", "error, steps of 8 bits", corner_.x + 14);
     draw_uncertainty();
     for (const FamilyInk& family : family_inks) draw_family(family);
     draw_best();
@@ -55,32 +58,7 @@ class Panel {
   static constexpr double right = width - 12;
   static constexpr double bottom = height - 44;
 
-  Place at(double seconds, double error) const {
-    return {corner_.x + left + (right - left) * seconds_.share(seconds),
-            corner_.y + bottom - (bottom - top) * errors_.share(error)};
-  }
-
-  Place corner(double x, double y) const { return {corner_.x + x, corner_.y + y}; }
-
-  void draw_axes(const std::string& title) const {
-    constexpr double text_below = 16;
-    drawing_.text(corner(left, top - 12), title);
-    for (int power = seconds_.low; power <= seconds_.high; ++power) {
-      const Place foot = at(elementary::pow(10.0, power), 0);
-      drawing_.line(foot, {foot.x, corner_.y + top}, grid_ink);
-      drawing_.text({foot.x, foot.y + text_below}, power_of_ten(power), "middle");
-    }
-    for (int power = errors_.low; power <= errors_.high; ++power) {
-      const Place foot = at(0, elementary::pow(10.0, power));
-      drawing_.line(foot, {corner_.x + right, foot.y}, grid_ink);
-      drawing_.text({foot.x - 6, foot.y + 4}, power_of_ten(power), "end");
-    }
-    drawing_.curve({corner(left, top), corner(right, top), corner(right, bottom),
-                    corner(left, bottom), corner(left, top)},
-                   frame_ink, 1);
-    drawing_.text(corner((left + right) / 2, bottom + 34), "seconds, whole picture", "middle");
-    drawing_.text(corner(14, (top + bottom) / 2), "error, steps of 8 bits", "middle", true);
-  }
+  Place at(double seconds, double error) const { return axes_.at(seconds, error); }
 
   /// Errors below this line are those of the reference.
   void draw_uncertainty() const {
@@ -114,8 +92,7 @@ class Panel {
   double PictureError::*measure_;
   Place corner_;
   Drawing& drawing_;
-  Decades seconds_;
-  Decades errors_;
+  LogAxes axes_;
 };
 
 void draw_legend(const TradeReport& report, const Place& corner, Drawing& drawing) {

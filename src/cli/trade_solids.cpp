@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <crt/elementary.hpp>
 #include <crt/file.hpp>
 #include <crt/measure.hpp>
 #include <filesystem>
@@ -79,10 +78,6 @@ std::string rungs_csv(const std::vector<WidthRung>& rungs) {
 std::string rungs_plot(const std::vector<WidthRung>& rungs, const std::string& title) {
   constexpr double width = 480;
   constexpr double height = 330;
-  constexpr double left = 64;
-  constexpr double right = width - 16;
-  constexpr double top = 34;
-  constexpr double bottom = height - 46;
   constexpr double least_width = 1e-15;
   constexpr Ink ink = "#1f5fa8";
   std::vector<double> seconds;
@@ -93,29 +88,17 @@ std::string rungs_plot(const std::vector<WidthRung>& rungs, const std::string& t
     seconds.push_back(rung.seconds);
     widths.push_back(rung.reached);
   }
-  const Decades across = decades_of(seconds);
-  const Decades up = decades_of(widths, least_width);
-  const auto x = [&](double value) { return left + (right - left) * across.share(value); };
-  const auto y = [&](double value) { return bottom - (bottom - top) * up.share(value); };
+  const LogAxes axes{.left = 64,
+                     .top = 34,
+                     .right = width - 16,
+                     .bottom = height - 46,
+                     .across = decades_of(seconds),
+                     .up = decades_of(widths, least_width)};
   Drawing drawing(width, height);
-  drawing.text({left, top - 12}, title);
-  for (int power = across.low; power <= across.high; ++power) {
-    const double at = x(elementary::pow(10.0, power));
-    drawing.line({at, top}, {at, bottom}, grid_ink);
-    drawing.text({at, bottom + 16}, power_of_ten(power), "middle");
-  }
-  for (int power = up.low; power <= up.high; ++power) {
-    const double at = y(elementary::pow(10.0, power));
-    drawing.line({left, at}, {right, at}, grid_ink);
-    drawing.text({left - 6, at + 4}, power_of_ten(power), "end");
-  }
-  drawing.curve({{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}},
-                frame_ink, 1);
-  drawing.text({(left + right) / 2, bottom + 34}, "seconds", "middle");
-  drawing.text({14, (top + bottom) / 2}, "width of the interval, relative", "middle", true);
+  axes.draw(drawing, title, "seconds", "width of the interval, relative", 14);
   std::vector<Place> places;
   places.reserve(rungs.size());
-  for (const WidthRung& rung : rungs) places.push_back({x(rung.seconds), y(rung.reached)});
+  for (const WidthRung& rung : rungs) places.push_back(axes.at(rung.seconds, rung.reached));
   drawing.curve(places, ink, 2);
   constexpr double dot_radius = 3.5;
   for (const Place& place : places) drawing.disc(place, dot_radius, ink);

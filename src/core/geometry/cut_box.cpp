@@ -15,10 +15,6 @@ Cells side_of_cut(std::size_t cut, bool is_below, Cells all) {
   return is_below ? below : all & ~below;
 }
 
-double middle_of(const Interval& range) {
-  return range.middle();
-}
-
 /// A RoughCut is a cut in rounded arithmetic.
 struct RoughCut {
   double curving = 0;
@@ -27,21 +23,17 @@ struct RoughCut {
 
   RoughCut() = default;
   explicit RoughCut(const Cut& cut)
-      : curving(middle_of(cut.curving)),
-        slope(middle_of(cut.slope[0]), middle_of(cut.slope[1]), middle_of(cut.slope[2])),
-        at_middle(middle_of(cut.at_middle)) {}
+      : curving(cut.curving.middle()),
+        slope(middle_of(cut.slope)),
+        at_middle(cut.at_middle.middle()) {}
   double value(const Vec3& offset) const {
     return curving * glm::dot(offset, offset) + glm::dot(slope, offset) + at_middle;
   }
 };
 
-Vec3 middle_of_box(const PointOf<Interval>& box) {
-  return {middle_of(box[0]), middle_of(box[1]), middle_of(box[2])};
-}
-
 }  // namespace
 
-CutBox::CutBox(const PointOf<Interval>& box) : box_(box), middle_(middle_of_box(box)) {
+CutBox::CutBox(const PointOf<Interval>& box) : box_(box), middle_(middle_of(box)) {
   offset_ = relative_to(box_, middle_);
 }
 

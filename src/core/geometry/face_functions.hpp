@@ -152,6 +152,10 @@ bool may_overlap(const PointOf<Interval>& box, const Bounds& bounds);
 inline PointOf<Interval> known_point(const Vec3& point) {
   return {Interval::of(point.x), Interval::of(point.y), Interval::of(point.z)};
 }
+/// Returns the point or vector in the middle of intervals, rounded.
+inline Vec3 middle_of(const PointOf<Interval>& v) {
+  return {v[0].middle(), v[1].middle(), v[2].middle()};
+}
 /// Returns a place relative to another.
 template <class Number>
 PointOf<Number> relative_to(const PointOf<Number>& point, const Vec3& center) {

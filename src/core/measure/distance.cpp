@@ -143,13 +143,6 @@ class PointSearch {
   NearestSearch<OpenNode> search_;
 };
 
-/// An OpenPair is a node of each of two trees.
-struct OpenPair {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-  double least = 0;
-};
-
 class PairSearch {
  public:
   PairSearch(const EntityCells& a, const EntityCells& b, const MeasureOptions& options)

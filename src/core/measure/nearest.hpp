@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "core/math/vector.hpp"
@@ -48,6 +49,13 @@ class NearestSearch {
   std::vector<Item> items_;
   double best_ = infinity;
   double left_ = infinity;
+};
+
+/// An OpenPair is a node of each of two trees, or two nodes of one.
+struct OpenPair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  double least = 0;
 };
 
 /// Returns the vector from a point to the nearest point of a box, which is 0 in it.

@@ -65,14 +65,11 @@ class ChordFinder {
     constexpr int steps = 4;
     for (int i = 0; i < steps; ++i) {
       const Jet jet = solid_.value(face, jets_of(known_point(place)));
-      for (int axis = 0; axis < 3; ++axis) {
-        const Interval& one = jet.slope[static_cast<std::size_t>(axis)];
-        slope[axis] = one.middle();
-      }
+      slope = middle_of(jet.slope);
       const double size = largest_component(slope);
       if (!(size > 0) || !std::isfinite(size)) return {};
       const Vec3 scaled = slope / size;
-      place -= scaled * ((jet.value.middle()) / size / glm::dot(scaled, scaled));
+      place -= scaled * (jet.value.middle() / size / glm::dot(scaled, scaled));
     }
     if (!Bounds{place, place}.finite()) return {};
     return along(place, is_turned ? slope : -slope, most);
@@ -119,13 +116,6 @@ class ChordFinder {
   WallAngle angle_;
 };
 
-/// An OpenWall is a pair of nodes between whose faces the thinnest wall may be.
-struct OpenWall {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-  double least = 0;
-};
-
 class WallSearch {
  public:
   WallSearch(const EntityCells& entity, const WallOptions& options)
@@ -143,7 +133,7 @@ class WallSearch {
   Wall run() {
     for (std::uint32_t i = 0; i < tree_.root_count(); ++i) add(i, i);
     while (!search_.is_done(wanted_width()) && !clock_.is_over()) {
-      const OpenWall open = search_.next();
+      const OpenPair open = search_.next();
       if (++steps_ > most_pairs_of_walls) {
         search_.leave(open.least);
         break;
@@ -163,7 +153,7 @@ class WallSearch {
 
   static double side_of(const Bounds& box) { return largest_component(box.upper - box.lower); }
 
-  void divide(const OpenWall& open) {
+  void divide(const OpenPair& open) {
     const bool divides_a =
         side_of(tree_.node(open.a).cell.box) >= side_of(tree_.node(open.b).cell.box);
     const std::uint32_t number = divides_a ? open.a : open.b;
@@ -209,7 +199,7 @@ class WallSearch {
   }
 
   /// Says whether all ways between two cells pass a place that is outside of the solid.
-  bool is_blocked(const OpenWall& open) const {
+  bool is_blocked(const OpenPair& open) const {
     const CellTree::Node& a = tree_.node(open.a);
     const Bounds& box_a = a.cell.box;
     const Bounds& box_b = tree_.node(open.b).cell.box;
@@ -227,7 +217,7 @@ class WallSearch {
   }
 
   /// Looks along the normals of a pair's faces from the middle of what is known of them.
-  void look_for_chord(const OpenWall& open) {
+  void look_for_chord(const OpenPair& open) {
     for (const std::uint32_t number : {open.a, open.b}) {
       const CellTree::Node& node = tree_.node(number);
       const ChordFinder finder(solids_[node.object], angle_);
@@ -266,7 +256,7 @@ class WallSearch {
   std::size_t steps_ = 0;
   std::unordered_map<std::uint32_t, std::vector<WallFace>> faces_;  ///< of nodes
   std::set<std::tuple<std::uint32_t, std::uint64_t, bool>> asked_;  ///< nodes, surfaces, sides
-  NearestSearch<OpenWall> search_;
+  NearestSearch<OpenPair> search_;
   Chord best_;
 };
 

@@ -32,10 +32,6 @@ bool may_be_along(const IntervalVec& a, const IntervalVec& b, double square_of_t
          square_across(a, b).lo <= rounded_up(square_of_tangent * rounded_up(along * along));
 }
 
-Vec3 middle_of(const IntervalVec& v) {
-  return {v[0].middle(), v[1].middle(), v[2].middle()};
-}
-
 /// Returns a bound on how far a face in a box reaches along a direction. For any factor, that is
 /// the most that the direction less so many times the slope reaches in the cube, plus what the
 /// factor makes of the face's values. The best factor is one for which a component is 0.

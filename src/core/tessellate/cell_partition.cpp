@@ -15,10 +15,6 @@ namespace {
 constexpr std::size_t most_nodes = std::size_t{1} << 20;
 constexpr std::size_t nodes_of_task = 32;
 
-Vec3 middle_of(const std::array<Interval, 3>& slopes) {
-  return {slopes[0].middle(), slopes[1].middle(), slopes[2].middle()};
-}
-
 /// Returns the least that a face's function grows along a direction.
 double least_growth(const std::array<Interval, 3>& slopes, const Vec3& direction, double sign) {
   Interval sum{0, 0};
@@ -162,7 +158,6 @@ bool CellPartition::divide(std::uint32_t number, Aim aim) {
   if (!nodes_[number].is_leaf() || !nodes_[number].look.is_open() || is_small_enough) return false;
   const Bounds box = nodes_[number].box;
   constexpr double share_of_deviation = 0.2;
-  constexpr double share_of_gap = 0.002;
   constexpr double share_of_longest = 0.125;
   double least = (aim == Aim::covered ? share_of_gap : share_of_deviation) * deviation_;
   if (aim == Aim::apart || aim == Aim::near)

@@ -83,6 +83,9 @@ class CellPartition {
   std::vector<std::uint32_t> waiting_;  ///< cells that may not be simple
 };
 
+/// Cells beside narrow gaps are halved down to this share of the deviation.
+inline constexpr double share_of_gap = 0.002;
+
 /// Returns 1 if the solid is left where a function of its faces grows to above 0, -1 if it is
 /// entered there, 0 if it depends on the other faces.
 int sign_of_face(const CellLook& look, std::size_t face);

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numeric>
 #include <tuple>
+
+#include "core/geometry/mesh/connected.hpp"
 
 #include "crt/elementary.hpp"
 
@@ -23,26 +24,6 @@ struct SideOfTriangle {
   double angle = 0;      ///< about the edge
 
   std::uint32_t place() const { return 3 * triangle + side; }
-};
-
-/// A Fans has the corners of triangles, and which of them are one.
-class Fans {
- public:
-  explicit Fans(std::size_t count) : parents_(count) {
-    std::iota(parents_.begin(), parents_.end(), 0U);
-  }
-  std::uint32_t root(std::uint32_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t first = root(a);
-    const std::uint32_t second = root(b);
-    parents_[std::max(first, second)] = std::min(first, second);
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;
 };
 
 class Closing {
@@ -111,8 +92,8 @@ class Closing {
     const auto next = [](const SideOfTriangle& side) {
       return 3 * side.triangle + (side.side + 1) % 3;
     };
-    fans_.join(up.place(), next(down));
-    fans_.join(next(up), down.place());
+    fans_.connect(up.place(), next(down));
+    fans_.connect(next(up), down.place());
   }
   void sort_by_angle(std::span<SideOfTriangle> sides) const {
     const Vec3 from = vertices_[sides[0].low].place;
@@ -171,7 +152,7 @@ class Closing {
     std::vector<char> used(vertices_.size(), 0);
     for (std::uint32_t place = 0; place < number_of.size(); ++place) {
       std::uint32_t& corner = triangles_[place / 3][place % 3];
-      std::uint32_t& number = number_of[fans_.root(place)];
+      std::uint32_t& number = number_of[fans_.lowest(place)];
       if (number == invalid_index) {
         number = corner;
         if (used[corner] != 0) {
@@ -187,7 +168,7 @@ class Closing {
 
   std::vector<DualVertex>& vertices_;
   std::vector<std::array<std::uint32_t, 3>>& triangles_;
-  Fans fans_;
+  Connected fans_;  ///< corners of triangles that are one
   std::vector<char> taken_ = std::vector<char>(3 * triangles_.size(), 0);
 };
 

@@ -160,12 +160,7 @@ void add_surface(const CellLook& look, std::size_t number, const CellFrame& fram
 
 }  // namespace
 
-bool DeviationProof::is_near_surface(std::uint32_t number) const {
-  const auto& [a, b, c] = mesh_.triangles[number];
-  return is_near_surface({&mesh_.vertices[a], &mesh_.vertices[b], &mesh_.vertices[c]});
-}
-
-bool DeviationProof::is_near_surface(const std::array<const DualVertex*, 3>& corners) const {
+bool SurfaceProof::is_near_surface(const DualTriangle& corners) const {
   const FlatTriangle triangle = {corners[0]->place, corners[1]->place, corners[2]->place};
   const Bounds box = box_of(triangle);
   // The ways from a point of the triangle are no longer than those from its corners.
@@ -186,7 +181,7 @@ bool DeviationProof::is_near_surface(const std::array<const DualVertex*, 3>& cor
   return is_moved_to(true) && is_moved_to(false);
 }
 
-bool DeviationProof::may_be_near_surface(const std::array<const DualVertex*, 3>& corners) const {
+bool SurfaceProof::may_be_near_surface(const DualTriangle& corners) const {
   const auto is_far = [&](const Vec3& place) {
     return std::ranges::all_of(corners, [&](const DualVertex* corner) {
       const SurfacePlaces places(solid_, partition_.node(corner->cell));
@@ -202,8 +197,7 @@ bool DeviationProof::may_be_near_surface(const std::array<const DualVertex*, 3>&
          !is_far(0.5 * (c + a));
 }
 
-bool DeviationProof::is_small(const std::array<const DualVertex*, 3>& corners,
-                              double distance) const {
+bool SurfaceProof::is_small(const DualTriangle& corners, double distance) const {
   // The surface passes through the cells of the corners. No point of a triangle is farther from all
   // corners than the longest side over the root of 3.
   double cell_size = 0;
@@ -217,8 +211,8 @@ bool DeviationProof::is_small(const std::array<const DualVertex*, 3>& corners,
   return cell_size + inverse_root_of_3 * longest <= distance;
 }
 
-bool DeviationProof::is_all(const FlatTriangle& triangle, bool inside,
-                            const std::shared_ptr<const OpenProgram>& program, int halvings) const {
+bool SurfaceProof::is_all(const FlatTriangle& triangle, bool inside,
+                          const std::shared_ptr<const OpenProgram>& program, int halvings) const {
   Bounds box = box_of(triangle);
   box = box.grown(rounding * (box.farthest() + largest_component(box.upper - box.lower)));
   const CellLook look = solid_.look({box, program});
@@ -237,20 +231,16 @@ bool DeviationProof::is_all(const FlatTriangle& triangle, bool inside,
   });
 }
 
-void DeviationProof::find_near(std::uint32_t cell, std::vector<std::uint32_t>& triangles) const {
-  boxes_.find(partition_.node(cell).box.grown(deviation_), triangles);
-}
-
-bool DeviationProof::is_near_mesh(std::uint32_t cell) const {
+bool MeshProof::is_near_mesh(std::uint32_t cell) const {
   const PartitionNode& node = partition_.node(cell);
   if (!node.look.is_open()) return true;
   std::vector<std::uint32_t> near;
-  find_near(cell, near);
+  boxes_.find(node.box.grown(deviation_), near);
   return is_near_mesh({node.box, node.look.program}, near, 0);
 }
 
-bool DeviationProof::is_near_mesh(const Cell& cell, std::span<const std::uint32_t> near,
-                                  int halvings) const {
+bool MeshProof::is_near_mesh(const Cell& cell, std::span<const std::uint32_t> near,
+                             int halvings) const {
   const double distance = deviation_ * (1 - rounding) - rounding * cell.box.farthest();
   const CellFrame frame(cell.box);
   const CellLook look = solid_.look(cell);
@@ -282,7 +272,6 @@ bool DeviationProof::is_near_mesh(const Cell& cell, std::span<const std::uint32_
     if (is_covered) return true;
   }
   if (halvings == most_halvings_of_cell) return false;
-  constexpr double share_of_gap = 0.002;
   const int axis =
       dividing_axis(solid_, cell.box, look, !outward_direction(look), share_of_gap * deviation_);
   const double place = frame.middle[axis];

@@ -15,29 +15,44 @@
 
 namespace crt::core {
 
-class DeviationProof {
+/// The corners of a triangle.
+using DualTriangle = std::array<const DualVertex*, 3>;
+
+/// A SurfaceProof proves that triangles are near the surface.
+class SurfaceProof {
  public:
   /// What is given must outlive it.
-  DeviationProof(const CellSolid& solid, const CellPartition& partition, const DualMesh& mesh,
-                 double deviation)
-      : solid_(solid), partition_(partition), mesh_(mesh), deviation_(deviation), boxes_(mesh) {}
+  SurfaceProof(const CellSolid& solid, const CellPartition& partition, double deviation)
+      : solid_(solid), partition_(partition), deviation_(deviation) {}
 
   double deviation() const { return deviation_; }
-  /// Returns whether a triangle of the mesh by its number, or one between some corners, is surely
-  /// near the surface.
-  bool is_near_surface(std::uint32_t number) const;
-  bool is_near_surface(const std::array<const DualVertex*, 3>& corners) const;
+  /// Returns whether a triangle is surely near the surface.
+  bool is_near_surface(const DualTriangle& corners) const;
   /// Guesses whether it is worth while to ask so.
-  bool may_be_near_surface(const std::array<const DualVertex*, 3>& corners) const;
-  /// Returns whether what is surface in a cell is surely near a triangle.
-  bool is_near_mesh(std::uint32_t cell) const;
-  /// Appends the triangles that may be near what is in a cell.
-  void find_near(std::uint32_t cell, std::vector<std::uint32_t>& triangles) const;
+  bool may_be_near_surface(const DualTriangle& corners) const;
 
  private:
-  bool is_small(const std::array<const DualVertex*, 3>& corners, double distance) const;
+  bool is_small(const DualTriangle& corners, double distance) const;
   bool is_all(const FlatTriangle& triangle, bool inside,
               const std::shared_ptr<const OpenProgram>& program, int halvings) const;
+
+  const CellSolid& solid_;
+  const CellPartition& partition_;
+  double deviation_;
+};
+
+/// A MeshProof proves that the surface is near a mesh.
+class MeshProof {
+ public:
+  /// What is given must outlive it.
+  MeshProof(const CellSolid& solid, const CellPartition& partition, const DualMesh& mesh,
+            double deviation)
+      : solid_(solid), partition_(partition), mesh_(mesh), deviation_(deviation), boxes_(mesh) {}
+
+  /// Returns whether what is surface in a cell is surely near a triangle.
+  bool is_near_mesh(std::uint32_t cell) const;
+
+ private:
   bool is_near_mesh(const Cell& cell, std::span<const std::uint32_t> near, int halvings) const;
 
   const CellSolid& solid_;

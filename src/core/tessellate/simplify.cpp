@@ -12,7 +12,7 @@ namespace {
 
 class Simplification {
  public:
-  Simplification(const DualMesh& mesh, const DeviationProof& proof, const std::vector<char>& kept,
+  Simplification(const DualMesh& mesh, const SurfaceProof& proof, const std::vector<char>& kept,
                  MeasureClock& clock)
       : vertices_(mesh.vertices),
         triangles_(mesh.triangles),
@@ -106,7 +106,7 @@ class Simplification {
     if (common.size() != 2) return false;
     for (const std::uint32_t vertex : common)
       if (around_[vertex].size() <= 3) return false;
-    std::vector<std::array<const DualVertex*, 3>> moved;
+    std::vector<DualTriangle> moved;
     moved.reserve(around_[from].size());
     for (const std::uint32_t t : around_[from]) {
       Triangle triangle = triangles_[t];
@@ -179,7 +179,7 @@ class Simplification {
 
   std::vector<DualVertex> vertices_;
   std::vector<Triangle> triangles_;
-  const DeviationProof& proof_;
+  const SurfaceProof& proof_;
   const std::vector<char>& kept_;
   MeasureClock& clock_;
   std::vector<std::vector<std::uint32_t>> around_;  ///< the triangles at each corner
@@ -190,8 +190,8 @@ class Simplification {
 
 }  // namespace
 
-DualMesh simplified(const DualMesh& mesh, const DeviationProof& proof,
-                    const std::vector<char>& kept, MeasureClock& clock) {
+DualMesh simplified(const DualMesh& mesh, const SurfaceProof& proof, const std::vector<char>& kept,
+                    MeasureClock& clock) {
   return Simplification(mesh, proof, kept, clock).run();
 }
 

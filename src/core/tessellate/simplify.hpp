@@ -12,7 +12,7 @@ namespace crt::core {
 
 /// Returns the mesh with fewer triangles. All that differ are proved to be near the surface. A
 /// corner that is `kept` stays.
-DualMesh simplified(const DualMesh& mesh, const DeviationProof& proof,
-                    const std::vector<char>& kept, MeasureClock& clock);
+DualMesh simplified(const DualMesh& mesh, const SurfaceProof& proof, const std::vector<char>& kept,
+                    MeasureClock& clock);
 
 }  // namespace crt::core

@@ -74,7 +74,7 @@ std::vector<FacePull> SurfacePlaces::pulls_at(const Vec3& place) const {
   pulls.reserve(node_.look.faces.size());
   for (std::size_t i = 0; i < node_.look.faces.size(); ++i) {
     const Jet jet = solid_.value(node_.look.faces[i], jets_of(known_point(place)));
-    Vec3 slope(jet.slope[0].middle(), jet.slope[1].middle(), jet.slope[2].middle());
+    const Vec3 slope = middle_of(jet.slope);
     const double length = glm::length(slope);
     if (!(length > 0 && length < infinity)) return {};
     const double sign = sign_of_face(node_.look, i) < 0 ? -1 : 1;

@@ -61,11 +61,12 @@ class Tessellation {
 
   /// Finds the cells of triangles that are not proved to be near the surface.
   std::set<std::uint32_t> cells_off_surface() {
-    const DeviationProof proof(solid_, partition_, mesh_, deviation_);
+    const SurfaceProof proof(solid_, partition_, deviation_);
     const auto count = static_cast<std::uint32_t>(mesh_.triangles.size());
     std::vector<char> is_near(count);
     for_each(count, [&](std::uint32_t i) {
-      is_near[i] = proved_.contains(key_of(i)) || proof.is_near_surface(i);
+      is_near[i] = proved_.contains(key_of(i)) ||
+                   proof.is_near_surface({&vertex_of(i, 0), &vertex_of(i, 1), &vertex_of(i, 2)});
     });
     std::set<std::uint32_t> cells;
     std::set<TriangleKey> proved;
@@ -81,7 +82,7 @@ class Tessellation {
   }
   /// Finds the cells with surface that is not proved to be near the mesh.
   std::set<std::uint32_t> cells_off_mesh() {
-    const DeviationProof proof(solid_, partition_, mesh_, deviation_);
+    const MeshProof proof(solid_, partition_, mesh_, deviation_);
     std::vector<char> is_covered(partition_.node_count());
     for_each(partition_.node_count(), [&](std::uint32_t i) {
       is_covered[i] = !partition_.node(i).is_leaf() || proof.is_near_mesh(i);
@@ -98,8 +99,7 @@ class Tessellation {
     std::vector<char> kept(whole.vertices.size(), 0);
     constexpr int most_tries = 6;
     for (int attempt = 0; attempt < most_tries; ++attempt) {
-      mesh_ =
-          simplified(whole, DeviationProof(solid_, partition_, whole, deviation_), kept, clock_);
+      mesh_ = simplified(whole, SurfaceProof(solid_, partition_, deviation_), kept, clock_);
       const std::set<std::uint32_t> cells = cells_off_mesh();
       if (cells.empty()) return;
       // Near such a cell too much was taken away.
