@@ -6,6 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/tessellate/cell_partition.hpp"
@@ -31,6 +34,78 @@ struct DualMesh {
   std::vector<std::uint32_t> tangled;
 };
 
-DualMesh dual_mesh_of(const CellSolid& solid, const CellPartition& partition, MeasureClock& clock);
+/// A DualMesher makes the meshes of a partition that grows. What was found for cells that are not
+/// divided since is taken over.
+class DualMesher {
+ public:
+  /// What is given must outlive it.
+  DualMesher(const CellSolid& solid, const CellPartition& partition, MeasureClock& clock)
+      : solid_(solid), partition_(partition), clock_(clock) {}
+
+  DualMesh mesh();
+
+ private:
+  struct PlaceHash {
+    std::size_t operator()(const Vec3& place) const;
+  };
+  /// A GridCorner is an end of edges.
+  struct GridCorner {
+    Vec3 place{0, 0, 0};
+    std::uint32_t cell = 0;
+    bool is_known = false;
+    bool is_inside = false;
+  };
+  /// A SurfaceEdge is one that the surface crosses.
+  struct SurfaceEdge {
+    GridEdge grid;
+    bool starts_inside = false;
+    bool has_crossing = false;
+    bool has_diagonal = false;
+    bool is_even = false;  ///< the diagonal of its polygon begins at the first cell
+    Vec3 crossing{0, 0, 0};
+  };
+  struct Polygon {
+    std::array<std::uint32_t, 4> corners{};
+    std::size_t count = 0;
+  };
+  using CellCrossing = std::pair<std::uint32_t, Vec3>;
+  /// The corners of the mesh, one for each cell with crossings.
+  struct CellVertices {
+    std::vector<DualVertex> vertices;
+    std::vector<char> is_new;
+    std::vector<CellCrossing> crossings;  ///< cells with theirs, sorted
+    std::vector<std::size_t> starts;      ///< the first crossing of each, and one past the last
+    std::vector<std::uint32_t> of_cell;
+
+    std::span<const CellCrossing> crossings_of(std::uint32_t vertex) const {
+      return std::span(crossings).subspan(starts[vertex], starts[vertex + 1] - starts[vertex]);
+    }
+  };
+
+  const PartitionNode& node(std::uint32_t cell) const { return partition_.node(cell); }
+  std::uint32_t corner_at(const Vec3& place, std::uint32_t cell);
+  void find_edges();
+  void find_corners();
+  void take_over(const std::vector<SurfaceEdge>& before);
+  void find_crossings();
+  std::uint32_t plainest_cell(const GridEdge& edge) const;
+  void place_vertices();
+  DualVertex vertex(std::span<const CellCrossing> cell_crossings) const;
+  Polygon polygon_of(const SurfaceEdge& edge) const;
+  void find_diagonals();
+  void add_polygon(const SurfaceEdge& edge, DualMesh& mesh) const;
+  bool is_even_nearer(const std::array<std::uint32_t, 4>& corners) const;
+  double length_of(std::uint32_t a, std::uint32_t b) const;
+  double distance_of_middle(const std::array<std::uint32_t, 4>& around, std::uint32_t a,
+                            std::uint32_t b) const;
+
+  const CellSolid& solid_;
+  const CellPartition& partition_;
+  MeasureClock& clock_;
+  std::unordered_map<Vec3, std::uint32_t, PlaceHash> corner_numbers_;
+  std::vector<GridCorner> corners_;
+  std::vector<SurfaceEdge> edges_;
+  CellVertices cells_;
+};
 
 }  // namespace crt::core

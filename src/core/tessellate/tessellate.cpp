@@ -24,14 +24,18 @@ namespace {
 class Tessellation {
  public:
   Tessellation(const CellSolid& solid, double deviation, MeasureClock& clock)
-      : solid_(solid), deviation_(deviation), clock_(clock), partition_(solid, deviation, clock) {}
+      : solid_(solid),
+        deviation_(deviation),
+        clock_(clock),
+        partition_(solid, deviation, clock),
+        mesher_(solid, partition_, clock) {}
 
   /// Returns whether the mesh is proved.
   bool run() {
     constexpr int most_rounds = 64;
     for (int round = 0; round < most_rounds; ++round) {
       const bool is_fine = partition_.refine();
-      mesh_ = dual_mesh_of(solid_, partition_, clock_);
+      mesh_ = mesher_.mesh();
       if (!is_fine || clock_.is_over()) return false;
       bool is_divided = divide(mesh_.tangled, CellPartition::Aim::apart);
       is_divided = divide(cells_off_surface(), CellPartition::Aim::near) || is_divided;
@@ -153,6 +157,7 @@ class Tessellation {
   double deviation_;
   MeasureClock& clock_;
   CellPartition partition_;
+  DualMesher mesher_;
   DualMesh mesh_;
   std::set<TriangleKey> proved_;
   bool is_near_surface_ = false;  ///< all triangles are

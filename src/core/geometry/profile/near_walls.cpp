@@ -63,6 +63,9 @@ class RegionLook {
   void add_arc(std::uint32_t number);
   /// Returns the sign of the squared distance from an arc's circle, as sign_of().
   int side_of_circle(const Profile::Arc& arc) const;
+  /// Returns whether a rectangle that the line of a chord passes through is between the chord's
+  /// ends, so that no other part of the arc's circle passes. It may be for arcs that are short.
+  bool is_between_ends(const Profile::Piece& chord, const Profile::Arc& arc) const;
   /// Returns whether two arcs that follow one another are the halves of a circle, whatever it is.
   bool are_whole(const Profile::Piece& one, const Profile::Piece& other) const;
   /// Returns the piece that has the rest of the circle of an arc, or else its own.
@@ -130,6 +133,26 @@ bool RegionLook::are_whole(const Profile::Piece& one, const Profile::Piece& othe
   const Profile::Arc& b = profile_.arcs()[other.arc];
   return a.first == b.first && a.is_right == b.is_right && one.from == other.to &&
          one.to == other.from;
+}
+
+bool RegionLook::is_between_ends(const Profile::Piece& chord, const Profile::Arc& arc) const {
+  const PointOf<Interval> across = rectangle();
+  const PointOf<Interval> along = way_along(chord);
+  const PointOf<Interval> to_center = relative_to(known_point(arc.center), chord.from);
+  const Interval center_is_left = along[0] * to_center[1] - along[1] * to_center[0];
+  const bool is_less_than_half = arc.is_right ? center_is_left.lo > 0 : center_is_left.hi < 0;
+  const double length = distance(chord.from, chord.to).hi;
+  const double size = across[0].width() + across[1].width();
+  // The chord is then at most that of a sixth of the circle, and what else of the circle is between
+  // the ends of the chord is farther away than the radius.
+  if (!is_less_than_half || !(length <= arc.radius) || !(size < arc.radius)) return false;
+  const auto place_after = [&](const Vec3& corner) {
+    const PointOf<Interval> offset = relative_to(across, corner);
+    return along[0] * offset[0] + along[1] * offset[1];
+  };
+  constexpr double safety = 4;
+  const double margin = safety * arc.margin * length;
+  return place_after(chord.from).lo > margin && place_after(chord.to).hi < -margin;
 }
 
 std::uint32_t RegionLook::other_half(std::uint32_t piece) const {
@@ -297,11 +320,9 @@ void RegionLook::add_arc(std::uint32_t number) {
 void RegionLook::add(std::uint32_t number) {
   const Profile::Piece& piece = profile_.pieces()[number];
   if (about_axis_ && piece.arc == invalid_index && piece.from.x == 0 && piece.to.x == 0) return;
+  if (!touches(rectangle(), profile_.bounds_of(number))) return;
   if (piece.arc == invalid_index) {
-    Bounds box;
-    box.include(piece.from);
-    box.include(piece.to);
-    if (touches(rectangle(), box) && side_of_piece(piece, rectangle()) == 0) add_flat(number);
+    if (side_of_piece(piece, rectangle()) == 0) add_flat(number);
     return;
   }
   const Profile::Arc& arc = profile_.arcs()[piece.arc];
@@ -316,6 +337,7 @@ void RegionLook::add(std::uint32_t number) {
     if (of_circle == 0 && (side < 0) == arc.is_right) add_arc(number);
     return;
   }
+  if (of_circle == 0 && is_between_ends(piece, arc)) return add_arc(number);
   // The line of the chord passes. Within the circle it is no boundary but next to the corners.
   constexpr double safety = 4;
   const double margin = safety * arc.margin * glm::length(piece.to - piece.from);

@@ -110,7 +110,7 @@ std::optional<Profile::Arc> arc_between(const Vec3& from, const Vec3& to, double
 }
 
 /// Returns a box around an arc, or around all that rounding may make of it.
-Bounds bounds_of(const Profile::Piece& chord, const Profile::Arc& arc) {
+Bounds bounds_of_arc(const Profile::Piece& chord, const Profile::Arc& arc) {
   Bounds box;
   box.include(chord.from);
   box.include(chord.to);
@@ -275,13 +275,19 @@ void Profile::find_circles() {
   }
 }
 
+Bounds Profile::bounds_of(std::uint32_t number) const {
+  const Piece& piece = pieces_[number];
+  Bounds box;
+  box.include(piece.from);
+  box.include(piece.to);
+  if (piece.arc != invalid_index) box.include(bounds_of_arc(piece, arcs_[piece.arc]));
+  return box;
+}
+
 void Profile::build_tree() {
   std::vector<Bounds> boxes(pieces_.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    boxes[i].include(piece.from);
-    boxes[i].include(piece.to);
-    if (piece.arc != invalid_index) boxes[i].include(bounds_of(piece, arcs_[piece.arc]));
+    boxes[i] = bounds_of(static_cast<std::uint32_t>(i));
     bounds_.include(boxes[i]);
   }
   // The heuristic weighs the boxes' surfaces, which shall be as their sides in the plane.

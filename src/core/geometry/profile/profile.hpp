@@ -79,6 +79,8 @@ class Profile {
   std::span<const Piece> pieces() const { return pieces_; }
   std::span<const Arc> arcs() const { return arcs_; }
   const core::Bounds& bounds() const { return bounds_; }
+  /// Returns a box around a piece with its arc.
+  core::Bounds bounds_of(std::uint32_t piece) const;
   /// Returns a tree over the pieces with their arcs. Each leaf has some that follow one another in
   /// its order().
   const core::Bvh& tree() const { return tree_; }
