@@ -41,6 +41,7 @@ class Tessellation {
       is_divided = divide(cells_off_surface(), CellPartition::Aim::near) || is_divided;
       if (is_divided) continue;
       // What is near a triangle that changes would change, too.
+      if (is_near_surface_ && !has_gaps_ && simplify()) return true;
       const std::set<std::uint32_t> cells = cells_off_mesh();
       if (cells.empty() && is_near_surface_) {
         simplify();
@@ -86,26 +87,40 @@ class Tessellation {
   }
   /// Finds the cells with surface that is not proved to be near the mesh.
   std::set<std::uint32_t> cells_off_mesh() {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < partition_.node_count(); ++i)
+      if (partition_.node(i).is_leaf()) all.push_back(i);
+    return cells_off_mesh(all);
+  }
+  /// Finds those among some.
+  template <class Cells>
+  std::set<std::uint32_t> cells_off_mesh(const Cells& some) {
+    const std::vector<std::uint32_t> cells(some.begin(), some.end());
     const MeshProof proof(solid_, partition_, mesh_, deviation_);
-    std::vector<char> is_covered(partition_.node_count());
-    for_each(partition_.node_count(), [&](std::uint32_t i) {
-      is_covered[i] = !partition_.node(i).is_leaf() || proof.is_near_mesh(i);
-    });
-    std::set<std::uint32_t> cells;
+    std::vector<char> is_covered(cells.size());
+    for_each(static_cast<std::uint32_t>(cells.size()),
+             [&](std::uint32_t i) { is_covered[i] = proof.is_near_mesh(cells[i]); });
+    std::set<std::uint32_t> off;
     for (std::uint32_t i = 0; i < is_covered.size(); ++i)
-      if (is_covered[i] == 0) cells.insert(i);
-    return cells;
+      if (is_covered[i] == 0) off.insert(cells[i]);
+    return off;
   }
 
-  /// Takes triangles away while all stays proved.
-  void simplify() {
+  /// Takes triangles away while all stays proved. Returns false, and takes none, if it is not
+  /// before.
+  bool simplify() {
     const DualMesh whole = mesh_;
     std::vector<char> kept(whole.vertices.size(), 0);
     constexpr int most_tries = 6;
     for (int attempt = 0; attempt < most_tries; ++attempt) {
       mesh_ = simplified(whole, SurfaceProof(solid_, partition_, deviation_), kept, clock_);
       const std::set<std::uint32_t> cells = cells_off_mesh();
-      if (cells.empty()) return;
+      if (cells.empty()) return true;
+      if (attempt == 0) {
+        mesh_ = whole;
+        has_gaps_ = !cells_off_mesh(cells).empty();
+        if (has_gaps_) return false;
+      }
       // Near such a cell too much was taken away.
       for (const std::uint32_t cell : cells) {
         const Bounds near = partition_.node(cell).box.grown(deviation_);
@@ -114,6 +129,7 @@ class Tessellation {
       }
     }
     mesh_ = whole;
+    return cells_off_mesh().empty();
   }
   template <class Work>
   void for_each(std::uint32_t count, const Work& work) {
@@ -161,6 +177,7 @@ class Tessellation {
   DualMesh mesh_;
   std::set<TriangleKey> proved_;
   bool is_near_surface_ = false;  ///< all triangles are
+  bool has_gaps_ = false;         ///< there was surface that is not near the whole mesh
 };
 
 }  // namespace
