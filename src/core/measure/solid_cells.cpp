@@ -234,6 +234,21 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
   return work.is_any ? outside : inside;
 }
 
+CellLook CellSolid::look_at_part(const CellLook& look, const Bounds& part) const {
+  CellLook result = look;
+  const CellFrame frame(part);
+  const std::array<Jet, 3> jets = jets_of(intervals_of(part));
+  const std::array<Interval, 3> middle = known_point(frame.middle);
+  for (CellFace& face : result.faces) {
+    const CellFace linear = linear_face(value(face, middle), value(face, jets), frame.half);
+    face.value = linear.value;
+    face.slope = linear.slope;
+    face.error = linear.error;
+    face.slopes = linear.slopes;
+  }
+  return result;
+}
+
 CellLook CellSolid::look(const Cell& cell) const {
   CellLook look;
   const OpenProgram& program = *cell.program;

@@ -35,14 +35,22 @@ LinearFunction linear(const CellFace& face) {
   return {face.value, face.slope};
 }
 
+/// Returns how far a face's function may be from its linear one, as that is computed.
+double error_of(const CellFace& face) {
+  const Vec3& slope = face.slope;
+  return face.error + rounding * (std::abs(face.value) + std::abs(slope.x) + std::abs(slope.y) +
+                                  std::abs(slope.z));
+}
+
 FaceSigns signs_in(const CellLook& look, std::span<const Vec3> corners_in_cube) {
   FaceSigns signs;
   for (std::size_t i = 0; i < look.faces.size(); ++i) {
     const CellFace& face = look.faces[i];
+    const double error = error_of(face);
     for (const Vec3& corner : corners_in_cube) {
       const double at = linear(face).at(corner);
-      if (!(at - face.error > 0)) signs.below |= 1U << i;
-      if (!(at + face.error < 0)) signs.above |= 1U << i;
+      if (!(at - error > 0)) signs.below |= 1U << i;
+      if (!(at + error < 0)) signs.above |= 1U << i;
     }
   }
   return signs;
@@ -54,6 +62,12 @@ std::array<FlatTriangle, 4> quarters_of(const FlatTriangle& t) {
   const Vec3 bc = 0.5 * t[1] + 0.5 * t[2];
   const Vec3 ca = 0.5 * t[2] + 0.5 * t[0];
   return {{{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}}};
+}
+
+/// Returns a box around a triangle, and what rounding may make of it.
+Bounds box_around(const FlatTriangle& triangle) {
+  const Bounds box = box_of(triangle);
+  return box.grown(rounding * (box.farthest() + largest_component(box.upper - box.lower)));
 }
 
 bool is_within(const FlatTriangle& triangle, std::span<const Vec3> points, double distance) {
@@ -164,17 +178,18 @@ bool SurfaceProof::is_near_surface(const DualTriangle& corners) const {
   const FlatTriangle triangle = {corners[0]->place, corners[1]->place, corners[2]->place};
   const Bounds box = box_of(triangle);
   // The ways from a point of the triangle are no longer than those from its corners.
-  const double most = deviation_ * (1 - rounding) - rounding * box.farthest();
+  const double most = (deviation_ - slack()) * (1 - rounding) - rounding * box.farthest();
   if (!(most > 0)) return false;
   if (is_small(corners, most)) return true;
-  const std::shared_ptr<const OpenProgram> program = partition_.program_in(box.grown(deviation_));
+  CellLook unknown;
+  unknown.program = partition_.program_in(box.grown(deviation_));
   const auto is_moved_to = [&](bool inside) {
     // Where the solid is thin, the way that leaves it again is too long.
     for (double reach = most; reach > 0x1p-10 * most; reach *= 0.25) {
       FlatTriangle moved = triangle;
       for (std::size_t i = 0; i < 3; ++i)
         moved[i] += corners[i]->outwards * (inside ? -reach : reach);
-      if (is_all(moved, inside, program, 0)) return true;
+      if (is_all(moved, inside, unknown, 0)) return true;
     }
     return false;
   };
@@ -211,11 +226,11 @@ bool SurfaceProof::is_small(const DualTriangle& corners, double distance) const 
   return cell_size + inverse_root_of_3 * longest <= distance;
 }
 
-bool SurfaceProof::is_all(const FlatTriangle& triangle, bool inside,
-                          const std::shared_ptr<const OpenProgram>& program, int halvings) const {
-  Bounds box = box_of(triangle);
-  box = box.grown(rounding * (box.farthest() + largest_component(box.upper - box.lower)));
-  const CellLook look = solid_.look({box, program});
+bool SurfaceProof::is_all(const FlatTriangle& triangle, bool inside, const CellLook& around,
+                          int halvings) const {
+  const Bounds box = box_around(triangle);
+  const CellLook look = around.kind == CellLook::Kind::crossed ? solid_.look_at_part(around, box)
+                                                               : solid_.look({box, around.program});
   if (!look.is_open()) return (look.kind == CellLook::Kind::full) == inside;
   if (look.kind == CellLook::Kind::crossed) {
     const CellFrame frame(box);
@@ -227,7 +242,7 @@ bool SurfaceProof::is_all(const FlatTriangle& triangle, bool inside,
   }
   if (halvings == most_halvings_of_triangle) return false;
   return std::ranges::all_of(quarters_of(triangle), [&](const FlatTriangle& quarter) {
-    return is_all(quarter, inside, look.program ? look.program : program, halvings + 1);
+    return is_all(quarter, inside, look, halvings + 1);
   });
 }
 

@@ -26,15 +26,21 @@ class SurfaceProof {
       : solid_(solid), partition_(partition), deviation_(deviation) {}
 
   double deviation() const { return deviation_; }
+  /// Returns how much nearer than the deviation triangles are proved to be.
+  double slack() const { return share_of_deviation * deviation_; }
   /// Returns whether a triangle is surely near the surface.
   bool is_near_surface(const DualTriangle& corners) const;
   /// Guesses whether it is worth while to ask so.
   bool may_be_near_surface(const DualTriangle& corners) const;
 
  private:
+  static constexpr double share_of_deviation = 0x1p-6;
+
   bool is_small(const DualTriangle& corners, double distance) const;
-  bool is_all(const FlatTriangle& triangle, bool inside,
-              const std::shared_ptr<const OpenProgram>& program, int halvings) const;
+  /// Returns whether a triangle is surely all in the solid, or all outside, as far as it follows
+  /// from a look at what is around it.
+  bool is_all(const FlatTriangle& triangle, bool inside, const CellLook& around,
+              int halvings) const;
 
   const CellSolid& solid_;
   const CellPartition& partition_;

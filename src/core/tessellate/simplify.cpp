@@ -10,6 +10,60 @@ namespace crt::core {
 
 namespace {
 
+/// A FlatStar says whether the triangles around a corner that moves cover the same planes as
+/// before. Then they are as near to the surface as those were.
+///
+/// In each plane both are the same chain of triangles, since both have the same boundary: corners
+/// that are not in the plane's middle move along the straight edge between two planes.
+class FlatStar {
+ public:
+  /// Both places are those of the corner that moves. Other corners may be so far from a plane.
+  FlatStar(const Vec3& from, const Vec3& to, double slack) : from_(from), to_(to), slack_(slack) {}
+
+  /// Adds a triangle that was moved, with its other two corners. Returns false if it is not in the
+  /// plane of what was there before.
+  bool add(const Vec3& a, const Vec3& b) {
+    const Vec3 across = glm::cross(a - to_, b - to_);
+    const double length = glm::length(across);
+    if (!(length > 0)) return false;
+    const Vec3 normal = across / length;
+    std::size_t number = 0;
+    while (number < count_ && !(is_in(number, a) && is_in(number, b))) ++number;
+    if (number == normals_.size()) return false;
+    if (number == count_) normals_[count_++] = normal;
+    for (const Vec3& corner : {a, b})
+      if (!take(corner, number)) return false;
+    return is_in(number, from_);
+  }
+
+ private:
+  bool is_in(std::size_t plane, const Vec3& place) const {
+    return std::abs(glm::dot(normals_[plane], place - to_)) <= slack_;
+  }
+  /// Takes a corner of a plane. One of two planes is on the line along which the other one moves.
+  bool take(const Vec3& corner, std::size_t plane) {
+    const auto found = std::ranges::find(corners_, corner, &PlaneCorner::place);
+    if (found == corners_.end()) {
+      corners_.push_back({corner, plane});
+      return true;
+    }
+    if (found->plane == plane) return true;
+    const Vec3 along = corner - to_;
+    return glm::length(glm::cross(along, from_ - to_)) <= slack_ * glm::length(along);
+  }
+
+  struct PlaneCorner {
+    Vec3 place;
+    std::size_t plane;
+  };
+  Vec3 from_;
+  Vec3 to_;
+  double slack_;
+  std::array<Vec3, 2> normals_;
+  std::size_t count_ = 0;
+  std::vector<PlaneCorner> corners_;
+};
+
 class Simplification {
  public:
   Simplification(const DualMesh& mesh, const SurfaceProof& proof, const std::vector<char>& kept,
@@ -21,6 +75,7 @@ class Simplification {
         clock_(clock),
         around_(mesh.vertices.size()),
         version_(mesh.vertices.size(), 0),
+        unproved_(mesh.triangles.size(), 0),
         is_gone_(mesh.triangles.size(), 0) {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       for (const std::uint32_t vertex : triangles_[t]) around_[vertex].push_back(t);
@@ -34,7 +89,8 @@ class Simplification {
       const Move move = moves_.top();
       moves_.pop();
       if (version_[move.from] != move.version || around_[move.from].empty()) continue;
-      if (can_move(move.from, move.to)) take(move.from, move.to);
+      double unproved = 0;
+      if (can_move(move.from, move.to, unproved)) take(move.from, move.to, unproved);
     }
     return rest();
   }
@@ -52,6 +108,8 @@ class Simplification {
     }
   };
   using Triangle = std::array<std::uint32_t, 3>;
+  /// So much of what triangles may be farther away is used by one move.
+  static constexpr double share_of_slack = 0x1p-14;
 
   static bool has(const Triangle& triangle, std::uint32_t vertex) {
     return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
@@ -97,7 +155,9 @@ class Simplification {
     return std::abs(glm::dot(way, vertex.edge)) >= along * glm::length(way);
   }
 
-  bool can_move(std::uint32_t from, std::uint32_t to) const {
+  /// Returns whether a corner can go to another, and how much farther than is proved the triangles
+  /// around may then be from the surface.
+  bool can_move(std::uint32_t from, std::uint32_t to, double& unproved) const {
     const std::vector<std::uint32_t> beside_from = neighbours_of(from);
     const std::vector<std::uint32_t> beside_to = neighbours_of(to);
     std::vector<std::uint32_t> common;
@@ -106,10 +166,15 @@ class Simplification {
     if (common.size() != 2) return false;
     for (const std::uint32_t vertex : common)
       if (around_[vertex].size() <= 3) return false;
+    const Vec3& place = vertices_[from].place;
+    const double slack = share_of_slack * proof_.slack();
+    FlatStar star(place, vertices_[to].place, slack);
+    bool is_flat = true;
     std::vector<DualTriangle> moved;
     moved.reserve(around_[from].size());
     for (const std::uint32_t t : around_[from]) {
       Triangle triangle = triangles_[t];
+      unproved = std::max(unproved, unproved_[t]);
       if (has(triangle, to)) continue;
       const Vec3 normal = across(triangle);
       const Vec3 before = is_narrow(triangle, normal) ? Vec3(0, 0, 0) : normal;
@@ -117,7 +182,15 @@ class Simplification {
       const Vec3 after = across(triangle);
       if (!keeps_direction(before, after, triangle)) return false;
       moved.push_back({&vertices_[triangle[0]], &vertices_[triangle[1]], &vertices_[triangle[2]]});
+      const auto at = std::find(triangle.begin(), triangle.end(), to) - triangle.begin();
+      const auto other = [&](std::ptrdiff_t i) {
+        return vertices_[triangle[static_cast<std::size_t>((at + i) % 3)]].place;
+      };
+      is_flat = is_flat && star.add(other(1), other(2));
     }
+    unproved += 2 * slack;
+    if (is_flat && unproved <= proof_.slack()) return true;
+    unproved = 0;
     return std::ranges::all_of(moved,
                                [&](const auto& t) { return proof_.may_be_near_surface(t); }) &&
            std::ranges::all_of(moved, [&](const auto& t) { return proof_.is_near_surface(t); });
@@ -143,7 +216,7 @@ class Simplification {
     return !(glm::length(normal) > narrow * longest * longest);
   }
 
-  void take(std::uint32_t from, std::uint32_t to) {
+  void take(std::uint32_t from, std::uint32_t to, double unproved) {
     const std::vector<std::uint32_t> changed = neighbours_of(from);
     for (const std::uint32_t t : around_[from]) {
       if (has(triangles_[t], to)) {
@@ -151,6 +224,7 @@ class Simplification {
         continue;
       }
       std::replace(triangles_[t].begin(), triangles_[t].end(), from, to);
+      unproved_[t] = unproved;
       around_[to].push_back(t);
     }
     around_[from].clear();
@@ -184,6 +258,7 @@ class Simplification {
   MeasureClock& clock_;
   std::vector<std::vector<std::uint32_t>> around_;  ///< the triangles at each corner
   std::vector<std::uint32_t> version_;              ///< how often what is around a corner changed
+  std::vector<double> unproved_;  ///< how much farther than is proved a triangle may be
   std::vector<char> is_gone_;
   std::priority_queue<Move> moves_;
 };
