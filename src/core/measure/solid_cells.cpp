@@ -236,16 +236,29 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
 
 CellLook CellSolid::look_at_part(const CellLook& look, const Bounds& part) const {
   CellLook result = look;
+  result.faces.clear();
   const CellFrame frame(part);
   const std::array<Jet, 3> jets = jets_of(intervals_of(part));
   const std::array<Interval, 3> middle = known_point(frame.middle);
-  for (CellFace& face : result.faces) {
-    const CellFace linear = linear_face(value(face, middle), value(face, jets), frame.half);
-    face.value = linear.value;
-    face.slope = linear.slope;
-    face.error = linear.error;
-    face.slopes = linear.slopes;
+  for (const CellFace& face : look.faces) {
+    const Jet jet = value(face, jets);
+    const Interval at_middle = value(face, middle);
+    const Interval range = narrowed(at_middle, jet, frame.half);
+    if (range.lo > 0 || range.hi < 0) {
+      result.inside = without_face(result.inside, result.faces.size(), range.hi < 0);
+      continue;
+    }
+    CellFace found = face;
+    const CellFace linear = linear_face(at_middle, jet, frame.half);
+    found.value = linear.value;
+    found.slope = linear.slope;
+    found.error = linear.error;
+    found.slopes = linear.slopes;
+    result.faces.push_back(found);
   }
+  drop_faces(result);
+  if (result.faces.empty())
+    result.kind = result.inside & 1U ? CellLook::Kind::full : CellLook::Kind::empty;
   return result;
 }
 

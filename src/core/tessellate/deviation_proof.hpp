@@ -34,7 +34,7 @@ class SurfaceProof {
   bool may_be_near_surface(const DualTriangle& corners) const;
 
  private:
-  static constexpr double share_of_deviation = 0x1p-6;
+  static constexpr double share_of_deviation = 0x1p-10;
 
   bool is_small(const DualTriangle& corners, double distance) const;
   /// Returns whether a triangle is surely all in the solid, or all outside, as far as it follows

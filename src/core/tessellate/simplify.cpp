@@ -98,18 +98,20 @@ class Simplification {
  private:
   /// A Move takes a corner away.
   struct Move {
-    double cost = 0;  ///< how far the corner it goes to is from the triangles around it
+    double cost = 0;    ///< how far the corner it goes to is from the triangles around it
+    double length = 0;  ///< how far that is
     std::uint32_t from = 0;
     std::uint32_t to = 0;
     std::uint32_t version = 0;
 
     friend bool operator<(const Move& a, const Move& b) {
-      return std::tuple(a.cost, a.from, a.to) > std::tuple(b.cost, b.from, b.to);
+      return std::tuple(a.cost, a.length, a.from, a.to) >
+             std::tuple(b.cost, b.length, b.from, b.to);
     }
   };
   using Triangle = std::array<std::uint32_t, 3>;
   /// So much of what triangles may be farther away is used by one move.
-  static constexpr double share_of_slack = 0x1p-14;
+  static constexpr double share_of_slack = 0x1p-12;
 
   static bool has(const Triangle& triangle, std::uint32_t vertex) {
     return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
@@ -143,7 +145,10 @@ class Simplification {
         cost = std::max(cost, std::abs(glm::dot(normal, way)) / glm::length(normal));
       }
       constexpr double hopeless = 4;
-      if (cost <= hopeless * proof_.deviation()) moves_.push({cost, from, to, version_[from]});
+      if (cost > hopeless * proof_.deviation()) continue;
+      // Of those that move nothing the short ones come first, which make no long fans.
+      if (cost <= share_of_slack * proof_.slack()) cost = 0;
+      moves_.push({cost, glm::length(way), from, to, version_[from]});
     }
   }
   bool keeps_sharp_edges(std::uint32_t from, std::uint32_t to) const {
@@ -163,7 +168,9 @@ class Simplification {
     std::vector<std::uint32_t> common;
     std::set_intersection(beside_from.begin(), beside_from.end(), beside_to.begin(),
                           beside_to.end(), std::back_inserter(common));
-    if (common.size() != 2) return false;
+    // Long fans are slow, and hard to tell from one another near their tip.
+    constexpr std::size_t most_around = 40;
+    if (common.size() != 2 || beside_to.size() > most_around) return false;
     for (const std::uint32_t vertex : common)
       if (around_[vertex].size() <= 3) return false;
     const Vec3& place = vertices_[from].place;
