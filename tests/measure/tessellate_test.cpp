@@ -229,6 +229,50 @@ TEST_CASE("a mesh takes few triangles") {
   }
 }
 
+TEST_CASE("what is made of triangles has these, wherever it is") {
+  const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  // By the parity rule triangles may be turned inwards.
+  const std::vector<TriangleIndices> inwards = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  const Entity mesh = Mesh{mesh_triangles(corners, inwards)};
+  const std::vector<double> heights = {0.5, 1, 0.25, 0.75, 0.5, 1, 0.5, 0.25, 1, 0.5, 0.5, 1};
+  const Entity field = HeightField{.heights = make_height_grid(heights, 4, 3)};
+  for (const Transform& transform :
+       {Transform{}, translate({3, -1, 2}), scale({-2, 1, 1}), rotate_degrees({20, 40, 60})}) {
+    const SurfaceMesh of_mesh = tessellate(mesh.transformed(transform), 1e-6);
+    CHECK(of_mesh.triangles.size() == 4);
+    CHECK(of_mesh.positions.size() == 4);
+    const SurfaceMesh of_field = tessellate(field.transformed(transform), 1e-6);
+    // There are 6 cells, with two triangles each; below, 10 sides with three.
+    CHECK(of_field.triangles.size() == 12 + 30);
+    for (const auto& [solid, made] : {std::pair(mesh, of_mesh), std::pair(field, of_field)}) {
+      CHECK(is_closed(made));
+      CHECK(euler_number(made) == 2);
+      CHECK(made.deviation == 1e-6);
+      const Interval volume = crt::volume(solid.transformed(transform), {.relative_width = 1e-6});
+      CHECK(volume_of(made) > volume.lower * (1 - 1e-12));
+      CHECK(volume_of(made) < volume.upper * (1 + 1e-12));
+    }
+  }
+}
+
+TEST_CASE("outlines of many flat arcs that go over into one another take few triangles") {
+  // A ring whose radius goes to and fro, of arcs with the same tangents where they meet.
+  constexpr int steps = 64;
+  const auto place = [](int i) {
+    const double angle = 2 * std::acos(-1.0) * i / steps;
+    const double radius = 1 + 0.04 * std::cos(5 * angle);
+    return std::pair(radius * std::cos(angle), radius * std::sin(angle));
+  };
+  Contour outline;
+  for (int i = 0; i < steps; ++i)
+    outline.push_back({.x = place(i).first, .y = place(i).second, .bulge = std::tan(0.02)});
+  const Entity solid = Extrusion{.profile = make_profile(std::vector<Contour>{outline}), .to = 0.2};
+  const SurfaceMesh mesh = tessellate(solid, 0.004);
+  CHECK(is_closed(mesh));
+  CHECK(mesh.deviation == 0.004);
+  CHECK(mesh.triangles.size() < 8 * steps);
+}
+
 TEST_CASE("random solids with faces that coincide have closed meshes that are near") {
   int proved = 0;
   int all = 0;

@@ -206,6 +206,10 @@ class Shape {
   /// Returns all faces in order, in object space, for drawing points of them, or none if it has no
   /// formula for that.
   virtual SurfacePieces pieces() const { return {}; }
+  /// Returns triangles, counter-clockwise from outside, that are all of its surface and meet in
+  /// whole edges, in object space. There are none if it is not made of triangles, or if it is not
+  /// known on which side of them the solid is.
+  virtual std::vector<Triangle> own_triangles() const { return {}; }
   /// Returns the functions of its faces, for questions about whole boxes, or null if it has no
   /// formulas for them.
   virtual std::unique_ptr<const FaceFunctions> face_functions() const { return nullptr; }

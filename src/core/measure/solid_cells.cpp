@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/base/invalid_index.hpp"
 #include "core/geometry/face_functions.hpp"
@@ -155,6 +156,22 @@ CellSolid::CellSolid(const CompiledScene& scene, const SceneObject& object) {
 bool CellSolid::has_all_functions() const {
   return std::ranges::all_of(leaves_,
                              [](const CellLeaf& leaf) { return leaf.functions != nullptr; });
+}
+
+std::vector<Triangle> CellSolid::own_triangles() const {
+  if (leaves_.size() != 1 || leaves_.front().leaf->complemented) return {};
+  const Placement& placement = *leaves_.front().placement;
+  std::vector<Triangle> triangles = leaves_.front().leaf->shape->own_triangles();
+  const Vec3 x = placement.direction_to_world({1, 0, 0});
+  const Vec3 y = placement.direction_to_world({0, 1, 0});
+  const Vec3 z = placement.direction_to_world({0, 0, 1});
+  const bool is_mirrored = glm::dot(glm::cross(x, y), z) < 0;
+  for (Triangle& triangle : triangles) {
+    for (Vec3* corner : {&triangle.a, &triangle.b, &triangle.c})
+      *corner = placement.point_to_world(*corner);
+    if (is_mirrored) std::swap(triangle.b, triangle.c);
+  }
+  return triangles;
 }
 
 LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellFrame& frame,

@@ -85,6 +85,10 @@ class CellSolid {
   /// Returns whether all its leaves have face functions. What others have in a box is unknown.
   bool has_all_functions() const;
 
+  /// Returns the triangles that the solid is made of, if it is (Shape::own_triangles()), in the
+  /// world.
+  std::vector<Triangle> own_triangles() const;
+
   const FaceFunctions& functions(std::uint32_t leaf) const { return *leaves_[leaf].functions; }
   const Placement& placement(std::uint32_t leaf) const { return *leaves_[leaf].placement; }
   /// Returns the function of a face at a place of the world, with slopes there.

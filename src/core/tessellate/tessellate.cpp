@@ -5,10 +5,12 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "core/geometry/mesh/equal_positions.hpp"
 #include "core/math/float_environment.hpp"
 #include "core/measure/entity_cells.hpp"
 #include "core/measure/measure_clock.hpp"
 #include "core/tasks/parallel.hpp"
+#include "core/tessellate/closed_triangles.hpp"
 #include "core/tessellate/deviation_proof.hpp"
 #include "core/tessellate/dual_mesh.hpp"
 #include "core/tessellate/simplify.hpp"
@@ -180,6 +182,35 @@ class Tessellation {
   bool has_gaps_ = false;         ///< there was surface that is not near the whole mesh
 };
 
+/// Returns the triangles that a solid is made of as a closed mesh, or an empty one.
+DualMesh own_mesh_of(const CellSolid& solid, double deviation) {
+  constexpr double rounding = 0x1p-44;
+  if (!(deviation > rounding * solid.bounds().farthest())) return {};
+  std::vector<Vec3> corners;
+  for (const Triangle& triangle : solid.own_triangles())
+    corners.insert(corners.end(), {triangle.a, triangle.b, triangle.c});
+  const std::vector<std::uint32_t> firsts = first_equal(corners);
+  DualMesh mesh;
+  std::vector<std::uint32_t> numbers(corners.size());
+  for (std::uint32_t i = 0; i < corners.size(); ++i) {
+    if (firsts[i] != i) {
+      numbers[i] = numbers[firsts[i]];
+      continue;
+    }
+    numbers[i] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.emplace_back().place = corners[i];
+  }
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    const std::array<std::uint32_t, 3> triangle = {numbers[i], numbers[i + 1], numbers[i + 2]};
+    // Where it was placed, rounding may have made two corners one.
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+      return {};
+    mesh.triangles.push_back(triangle);
+  }
+  close(mesh.vertices, mesh.triangles, mesh.tangled);
+  return mesh.tangled.empty() ? mesh : DualMesh{};
+}
+
 }  // namespace
 
 }  // namespace core
@@ -195,12 +226,15 @@ SurfaceMesh tessellate(const Entity& entity, double deviation, const MeasureOpti
     SurfaceMesh result;
     result.deviation = deviation;
     for (const core::CellSolid& solid : cells.solids()) {
-      core::Tessellation tessellation(solid, deviation, clock);
-      if (!tessellation.run()) result.deviation = core::infinity;
+      core::DualMesh mesh = core::own_mesh_of(solid, deviation);
+      if (mesh.triangles.empty()) {
+        core::Tessellation tessellation(solid, deviation, clock);
+        if (!tessellation.run()) result.deviation = core::infinity;
+        mesh = tessellation.mesh();
+      }
       const auto first = static_cast<std::uint32_t>(result.positions.size());
-      for (const core::DualVertex& vertex : tessellation.mesh().vertices)
-        result.positions.push_back(vertex.place);
-      for (const auto& [a, b, c] : tessellation.mesh().triangles)
+      for (const core::DualVertex& vertex : mesh.vertices) result.positions.push_back(vertex.place);
+      for (const auto& [a, b, c] : mesh.triangles)
         result.triangles.push_back({first + a, first + b, first + c});
     }
     return result;

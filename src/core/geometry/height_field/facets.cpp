@@ -283,4 +283,32 @@ void HeightFacets::append_near_of_cell(const RoughPlane& plane, double margin, s
   }
 }
 
+std::vector<Triangle> HeightFacets::closed_triangles() const {
+  const double bottom = bounds_.lower.y;
+  if (!(y_of(grid_->lowest()) > bottom)) return {};
+  std::vector<Triangle> triangles;
+  for (std::uint32_t z = 0; z < cells_z_; ++z) {
+    for (std::uint32_t x = 0; x < cells_x_; ++x)
+      for (const Triangle& triangle : triangles_of_cell(x, z)) triangles.push_back(triangle);
+  }
+  // The bottom is a fan, so that it meets each side's triangles in their edges.
+  const Vec3 middle(0.5 * bounds_.lower.x + 0.5 * bounds_.upper.x, bottom,
+                    0.5 * bounds_.lower.z + 0.5 * bounds_.upper.z);
+  for (std::uint32_t side = 0; side < side_count; ++side) {
+    const std::uint32_t cells = side / 2 == 0 ? cells_z_ : cells_x_;
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      for (const Triangle& wall : triangles_of_side(side, i)) {
+        triangles.push_back(wall);
+        const std::array<Vec3, 3> corners = {wall.a, wall.b, wall.c};
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vec3& one = corners[k];
+          const Vec3& next = corners[(k + 1) % 3];
+          if (one.y == bottom && next.y == bottom) triangles.push_back({next, one, middle});
+        }
+      }
+    }
+  }
+  return triangles;
+}
+
 }  // namespace crt::core

@@ -52,6 +52,10 @@ class HeightFacets {
     return (one == bottom_face) != (other == bottom_face);
   }
 
+  /// Returns triangles around all of the solid, counter-clockwise from outside, that meet in whole
+  /// edges. There are none if the solid has no thickness somewhere.
+  std::vector<Triangle> closed_triangles() const;
+
   /// A RoughPlane has all points where normal . p is `offset`, with rounded numbers.
   struct RoughPlane {
     Vec3 normal;

@@ -35,6 +35,7 @@ class HeightFieldShape final : public ShapeOfPoints<HeightFieldShape> {
                    bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const override { return facets_.face_count(); }
   Surface surface(std::uint32_t face) const override;
+  std::vector<Triangle> own_triangles() const override { return facets_.closed_triangles(); }
   std::unique_ptr<const FaceFunctions> face_functions() const override;
   std::uint32_t listed_face_count() const override {
     return face_count() > max_compared_faces ? HeightFacets::first_of_cells : face_count();

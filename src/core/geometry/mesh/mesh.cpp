@@ -40,6 +40,19 @@ SurfacePieces MeshShape::pieces() const {
   return pieces;
 }
 
+std::vector<Triangle> MeshShape::own_triangles() const {
+  std::vector<Triangle> triangles;
+  triangles.reserve(face_count());
+  for (std::uint32_t face = 0; face < face_count(); ++face) {
+    const Facing facing = triangles_->plane_of(face).faces();
+    if (facing != Facing::outwards && facing != Facing::inwards) return {};
+    Triangle triangle = triangles_->triangle(face);
+    if (facing == Facing::inwards) std::swap(triangle.b, triangle.c);
+    triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
 const FacetAttributes* facet_attributes(const Primitive& primitive) {
   const auto* mesh = std::get_if<Mesh>(&primitive);
   return mesh == nullptr ? nullptr : mesh->triangles->attributes();

@@ -47,6 +47,7 @@ class MeshShape final : public Shape {
   std::uint32_t face_count() const override { return triangles_->size(); }
   Surface surface(std::uint32_t face) const override;
   SurfacePieces pieces() const override;
+  std::vector<Triangle> own_triangles() const override;
   std::unique_ptr<const FaceFunctions> face_functions() const override;
   const FacetAttributes* facet_attributes() const override { return triangles_->attributes(); }
   const MeshTriangles& triangles() const { return *triangles_; }
