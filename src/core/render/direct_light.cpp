@@ -177,16 +177,35 @@ RayMask aim_at(const Source& source, const Surfaces& surfaces, RayMask some,
   return aimed;
 }
 
-/// Finds what is on the paths of some shadow rays.
+/// Finds what shadow rays of a kind meet on their paths.
 LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const PacketStarts& starts,
-                          RayMask some) {
+                          RayMask some, PassingRays kind = passing_shadow) {
   const auto count = static_cast<unsigned>(std::popcount(some));
   context.work.stats.shadow_rays += count;
   context.count_rays(count);
   const PreparedData& data = context.data;
   RayWorkspace& work = context.work.rays;
-  if (data.features().transparency) return data.paths_to_light(batch, starts, some, work);
-  return {.blocked = data.shadowed_each(batch, starts, some, work)};
+  if (data.features().transparency)
+    return data.paths_to_light(batch, starts, some, work, Packets::where_they_pay, kind);
+  return {.blocked = data.shadowed_each(batch, starts, some, work, kind)};
+}
+
+/// Finds what is on the paths of shadow rays that were sent to a light that rays find, too. What
+/// casts no shadow hides the light from rays, and there it aims again, at all of the light.
+LightPaths paths_beside_rays(TraceContext& context, const Source& source, const Surfaces& surfaces,
+                             const PacketStarts& starts, RayMask sent, const FoundByRays& found_by,
+                             ShadowRays& rays) {
+  const RayBatch& batch = rays.batch;
+  const LightPaths of_rays = paths_to_light(context, batch, starts, sent, passing_none);
+  const LightPaths paths =
+      paths_to_light(context, batch, starts, of_rays.blocked | of_rays.filtered);
+  const RayMask hidden = (of_rays.blocked & ~paths.blocked) | (of_rays.filtered & ~paths.filtered);
+  if (hidden != 0) {
+    const FoundByRays elsewhere{.diffuse = found_by.diffuse & ~hidden,
+                                .scattered = found_by.scattered & ~hidden};
+    aim_at(source, surfaces, batch.with_starts, elsewhere, rays);
+  }
+  return paths;
 }
 
 /// Adds what gets through along shadow rays that were sent, times a factor, and is sent back. Those
@@ -227,13 +246,18 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   FoundByRays found_by{.diffuse = rays.sending_diffuse(settings.indirect)};
   if (context.data.features().principled)
     found_by.scattered = rays.within_depth(settings.recursion_depth);
+  const bool may_be_hidden =
+      context.data.features().shadowless && (found_by.diffuse | found_by.scattered) != 0;
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   const auto add = [&](const Source& source, bool has_size, std::uint32_t kind, std::size_t index) {
     const int samples = has_size ? settings.light_samples : 1;
     for (int sample = 0; sample < samples; ++sample) {
       if (has_size) draw_numbers(context, rays, some, kind, sample, shadow_rays);
       const RayMask sent = aim_at(source, surfaces, some, found_by, shadow_rays);
-      const LightPaths paths = paths_to_light(context, batch, starts, sent);
+      const LightPaths paths =
+          may_be_hidden && source.is_found_by_rays()
+              ? paths_beside_rays(context, source, surfaces, starts, sent, found_by, shadow_rays)
+              : paths_to_light(context, batch, starts, sent);
       // Shadows of what has a size have no edge.
       if (context.identifies && !has_size)
         identify_shadows(rays, index, paths.blocked | paths.filtered);

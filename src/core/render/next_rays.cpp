@@ -1,5 +1,6 @@
 #include "core/render/next_rays.hpp"
 
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -16,6 +17,10 @@ namespace {
 /// A sample follows no more rays than this: where every hit sends two full-weight rays on, a deep
 /// recursion would not end in a lifetime. With weights that add up to 1 it is never reached.
 constexpr int max_rays_per_sample = 65536;
+
+/// The samples of lights that a surface takes pass what casts no shadow, and stand for all light
+/// behind it. So a ray through it goes on as if it had hardly any chance to find these lights.
+constexpr double least_density = std::numeric_limits<double>::min();
 
 /// A Branch is the rays of a group that go on in one way.
 struct Branch {
@@ -223,6 +228,11 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       ++through.bounces;
       through.media = parts.media_behind[lane];
       through.media_mark = work.media.mark();
+      if (context.data.features().shadowless && state.density > 0 &&
+          context.data.is_passed(hits.hits[ray].object, passing_shadow)) {
+        through.density = least_density;
+        through.normal = state.normal;
+      }
       stats.media_changes += context.data.is_solid(hits.hits[ray]);
     }
     take(stats, last, work, sample, next);
