@@ -70,8 +70,14 @@ void draw_numbers(const TraceContext& context, const PathRays& rays, RayMask som
                   std::uint32_t kind, int sample, ShadowRays& shadow_rays) {
   const int samples = context.frame.settings().light_samples;
   RayPacket::for_each_group(some, [&](std::size_t group, RayMask) {
-    const auto [u, v, choice, spare] = rays.draw(context.frame, group, kind, samples, sample);
-    shadow_rays.numbers[group] = {u, v, choice};
+    LightNumbers& numbers = shadow_rays.numbers[group];
+    if (kind == SampleDecision::chosen_light) {
+      const auto [u, v, choice, spare] = rays.draw(context.frame, group, kind, samples, sample);
+      numbers = {u, v, choice};
+    } else {
+      const auto [u, v] = rays.draw<2>(context.frame, group, kind, samples, sample);
+      numbers = {u, v};
+    }
   });
 }
 

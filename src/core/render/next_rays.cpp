@@ -54,8 +54,7 @@ Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const Sur
   branch.rays = (some & mask_of(from.phong.diffuse > 0.0)) | principled;
   branch.rays &= RayPacket::lanes(rays.sending_diffuse(context.frame.settings().indirect), group);
   if (branch.rays == 0) return branch;
-  const auto [u, v, spare_u, spare_v] =
-      rays.draw(context.frame, group, SampleDecision::diffuse_direction);
+  const auto [u, v] = rays.draw<2>(context.frame, group, SampleDecision::diffuse_direction);
   const auto [x, y] = point_of_disc(u, v);
   const Lanes upwards = sqrt(max(Lanes{}, 1.0 - x * x - y * y));
   const VectorLanes& normal = from.phong.normal;

@@ -146,7 +146,7 @@ class PreparedLight {
                    LightSamples& light) const;
   /// Replaces the samples of points that a flat light is near to. They are drawn evenly over the
   /// solid angle of the rectangle around it, and those beside the light find nothing.
-  void sample_near(const VectorLanes& points, const LightNumbers& numbers,
+  void sample_near(const VectorLanes& points, const LaneMask& near, const LightNumbers& numbers,
                    LightSamples& light) const;
   /// Returns the points to which a flat light is so near.
   LaneMask are_near(const VectorLanes& points) const;

@@ -73,10 +73,12 @@ LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_leng
       return light.distances > 0.0;
     case Kind::disc:
     case Kind::rectangle:
-    case Kind::triangle:
-      sample_flat(points, places(numbers), light);
-      sample_near(points, numbers, light);
+    case Kind::triangle: {
+      const LaneMask near = are_near(points);
+      if (!all(near)) sample_flat(points, places(numbers), light);
+      if (any(near)) sample_near(points, near, numbers, light);
       break;
+    }
     case Kind::tube:
       sample_tube(points, numbers, light);
       break;
@@ -159,10 +161,8 @@ LaneMask PreparedLight::are_near(const VectorLanes& points) const {
   return dot(offset, offset) < near_ * near_ && height * height > flattest * flattest * squared;
 }
 
-void PreparedLight::sample_near(const VectorLanes& points, const LightNumbers& numbers,
-                                LightSamples& light) const {
-  const LaneMask near = are_near(points);
-  if (!any(near)) return;
+void PreparedLight::sample_near(const VectorLanes& points, const LaneMask& near,
+                                const LightNumbers& numbers, LightSamples& light) const {
   const SphericalRectangle around(*around_, lanes_of(corner_) - points);
   const VectorLanes on_light = points + around.sample(numbers);
   LightSamples even;
