@@ -138,6 +138,8 @@ class PreparedLight {
   void sample_area(const VectorLanes& points, const VectorLanes& on_light,
                    const VectorLanes& normals, const Lanes& areas_over_pi,
                    LightSamples& light) const;
+  /// Returns the cosines of directions to a surface with the normals, or 0 where it does not shine.
+  Lanes shining_cosines(const VectorLanes& directions, const VectorLanes& normals) const;
   void sample_flat(const VectorLanes& points, const VectorLanes& on_light,
                    LightSamples& light) const;
   /// Returns places of a flat light, spread evenly over its area.
@@ -185,6 +187,7 @@ class PreparedLight {
   Vec3 edge_a_{0, 0, 0};     ///< of a disc these are half axes
   Vec3 edge_b_{0, 0, 0};
   std::optional<RectangleFrame> around_;  ///< a rectangle around a flat light, if it fits well
+  bool fills_around_ = false;             ///< whether it is all of that rectangle
   Vec3 corner_{0, 0, 0};                  ///< of that rectangle
   double near_ = 0;                       ///< the distance from its middle up to which it counts
 };

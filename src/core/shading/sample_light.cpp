@@ -119,12 +119,17 @@ void PreparedLight::sample_ball(const VectorLanes& points, const LightNumbers& n
   light.intensities = select(is_outside, 2.0 / (1.0 + cosine), lanes_of(1));
 }
 
+Lanes PreparedLight::shining_cosines(const VectorLanes& directions,
+                                     const VectorLanes& normals) const {
+  const Lanes towards = -dot(directions, normals);
+  return is_two_sided_ ? abs(towards) : max(Lanes{}, towards);
+}
+
 void PreparedLight::sample_area(const VectorLanes& points, const VectorLanes& on_light,
                                 const VectorLanes& normals, const Lanes& areas_over_pi,
                                 LightSamples& light) const {
   directions_and_lengths(on_light - points, light.directions, light.distances);
-  const Lanes towards = -dot(light.directions, normals);
-  const Lanes cosine = is_two_sided_ ? abs(towards) : max(Lanes{}, towards);
+  const Lanes cosine = shining_cosines(light.directions, normals);
   const Lanes squared = light.distances * light.distances;
   light.intensities = min(lanes_of(largest_intensity), areas_over_pi * cosine / squared);
   light.distances = select(cosine > 0.0, light.distances, Lanes{});
@@ -164,12 +169,14 @@ LaneMask PreparedLight::are_near(const VectorLanes& points) const {
 void PreparedLight::sample_near(const VectorLanes& points, const LaneMask& near,
                                 const LightNumbers& numbers, LightSamples& light) const {
   const SphericalRectangle around(*around_, lanes_of(corner_) - points);
-  const VectorLanes on_light = points + around.sample(numbers);
-  LightSamples even;
-  sample_flat(points, on_light, even);
-  const LaneMask found = holds(on_light - lanes_of(origin_));
-  const Lanes distances = select(found, even.distances, Lanes{});
-  light.directions = select(near, even.directions, light.directions);
+  const VectorLanes to_light = around.sample(numbers);
+  VectorLanes directions;
+  Lanes distances;
+  directions_and_lengths(to_light, directions, distances);
+  LaneMask found = shining_cosines(directions, lanes_of(axis_)) > 0.0;
+  if (!fills_around_) found &= holds(points + to_light - lanes_of(origin_));
+  distances = select(found, distances, Lanes{});
+  light.directions = select(near, directions, light.directions);
   light.distances = select(near, distances, light.distances);
   light.intensities =
       select(near, (1 / std::numbers::pi) * around.solid_angles(), light.intensities);
