@@ -157,7 +157,8 @@ RayMask aim_at(const Source& source, const Surfaces& surfaces, RayMask some,
     LaneMask lit = lanes_with(lanes);
     lit &= source.light == nullptr
                ? sample_chosen(*source.chosen, group, lanes, rays.numbers[i], samples, found)
-               : source.light->sample(group.position, group.path_length, rays.numbers[i], samples);
+               : source.light->sample(group.position, group.path_length, rays.numbers[i], samples,
+                                      rays.views[i]);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
     const FoundByRays of_group{.diffuse = RayPacket::lanes(found_by.diffuse, i) & found,
                                .scattered = RayPacket::lanes(found_by.scattered, i) & found};
@@ -257,6 +258,7 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   const auto add = [&](const Source& source, bool has_size, std::uint32_t kind, std::size_t index) {
     const int samples = has_size ? settings.light_samples : 1;
+    for (LightView& view : shadow_rays.views) view.is_known = false;
     for (int sample = 0; sample < samples; ++sample) {
       if (has_size) draw_numbers(context, rays, some, kind, sample, shadow_rays);
       const RayMask sent = aim_at(source, surfaces, some, found_by, shadow_rays);

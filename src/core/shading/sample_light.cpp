@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/geometry/angles.hpp"
 #include "core/math/direction_and_length.hpp"
@@ -36,7 +37,8 @@ VectorLanes directions_in_cone(const VectorLanes& axis, const Lanes& cone_versin
 }  // namespace
 
 LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_lengths,
-                               const LightNumbers& numbers, LightSamples& light) const {
+                               const LightNumbers& numbers, LightSamples& light,
+                               LightView& view) const {
   const Lanes infinity = lanes_of(std::numeric_limits<double>::infinity());
   light.intensities = lanes_of(1);
   light.colors = lanes_of(color_);
@@ -73,12 +75,14 @@ LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_leng
       return light.distances > 0.0;
     case Kind::disc:
     case Kind::rectangle:
-    case Kind::triangle: {
-      const LaneMask near = are_near(points);
-      if (!all(near)) sample_flat(points, places(numbers), light);
-      if (any(near)) sample_near(points, near, numbers, light);
+    case Kind::triangle:
+      if (!std::exchange(view.is_known, true)) {
+        view.near = are_near(points);
+        if (any(view.near)) view.around.emplace(*around_, lanes_of(corner_) - points);
+      }
+      if (!all(view.near)) sample_flat(points, places(numbers), light);
+      if (any(view.near)) sample_near(points, view, numbers, light);
       break;
-    }
     case Kind::tube:
       sample_tube(points, numbers, light);
       break;
@@ -166,20 +170,19 @@ LaneMask PreparedLight::are_near(const VectorLanes& points) const {
   return dot(offset, offset) < near_ * near_ && height * height > flattest * flattest * squared;
 }
 
-void PreparedLight::sample_near(const VectorLanes& points, const LaneMask& near,
+void PreparedLight::sample_near(const VectorLanes& points, const LightView& view,
                                 const LightNumbers& numbers, LightSamples& light) const {
-  const SphericalRectangle around(*around_, lanes_of(corner_) - points);
-  const VectorLanes to_light = around.sample(numbers);
+  const VectorLanes to_light = view.around->sample(numbers);
   VectorLanes directions;
   Lanes distances;
   directions_and_lengths(to_light, directions, distances);
   LaneMask found = shining_cosines(directions, lanes_of(axis_)) > 0.0;
   if (!fills_around_) found &= holds(points + to_light - lanes_of(origin_));
   distances = select(found, distances, Lanes{});
-  light.directions = select(near, directions, light.directions);
-  light.distances = select(near, distances, light.distances);
-  light.intensities =
-      select(near, (1 / std::numbers::pi) * around.solid_angles(), light.intensities);
+  light.directions = select(view.near, directions, light.directions);
+  light.distances = select(view.near, distances, light.distances);
+  const Lanes intensities = (1 / std::numbers::pi) * view.around->solid_angles();
+  light.intensities = select(view.near, intensities, light.intensities);
 }
 
 PreparedLight::TubeView PreparedLight::view_of_tube(const VectorLanes& points) const {
