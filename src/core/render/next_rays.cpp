@@ -203,6 +203,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       path.kind = kind;
       path.path_length = from.path_length();
       path.density = branch.densities[lane];
+      path.is_scattered = state.is_scattered || path.density > 0;
       if (context.data.chosen_lights() != nullptr)
         path.normal = PackedDirection(surfaces.groups[group].face_normal.lane(lane));
       return path;

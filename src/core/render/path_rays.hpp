@@ -61,6 +61,12 @@ struct PathRays {
     for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].density > 0) << i;
     return mask;
   }
+  /// Returns those with such a direction, or that come from such a ray by mirrors and glass.
+  RayMask after_scattering() const {
+    RayMask mask = 0;
+    for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].is_scattered) << i;
+    return mask;
+  }
   /// Draws the numbers of a decision of a kind for a group, of one of some samples of it: two of
   /// them, or all four.
   template <std::size_t numbers = sequence_dimensions>
