@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace crt::studio {
@@ -111,6 +112,27 @@ Light light_at(const Camera& camera) {
       .from = camera.position, .pointing = camera.pointing, .color = camera_light_color};
 }
 
+/// Returns light that is white at most.
+Color dimmed(const Color& light) {
+  const auto most = std::max({light.r, light.g, light.b});
+  return most > 1 ? Color{light.r / most, light.g / most, light.b / most} : light;
+}
+
+/// Lets a material show that it gives off light, and light others no more than a white one does.
+SharedMaterial with_dimmed_light(const SharedMaterial& material) {
+  if (const PrincipledMaterial* const principled = material.principled()) {
+    const Color* const emission = std::get_if<Color>(&principled->emission);
+    if (emission == nullptr || dimmed(*emission) == *emission) return material;
+    PrincipledMaterial dim = *principled;
+    dim.emission = dimmed(*emission);
+    return dim;
+  }
+  if (dimmed(material->emission) == material->emission) return material;
+  Material dim = *material;
+  dim.emission = dimmed(dim.emission);
+  return dim;
+}
+
 /// Lets the scene take the light of a mode, and no more time than that needs.
 void simplify(Scene& scene) {
   scene.camera.aperture = scene.camera.lens_radius = 0;
@@ -159,7 +181,9 @@ Scene scene_in_mode(Scene scene, ViewMode mode, const Camera& front) {
 }
 
 std::function<SharedMaterial(const SharedMaterial&)> materials_of(ViewMode mode) {
-  if (mode != ViewMode::clay) return {};
+  if (mode == ViewMode::rendered) return {};
+  if (mode == ViewMode::material)
+    return [](const SharedMaterial& material) { return with_dimmed_light(material); };
   return [](const SharedMaterial& material) {
     static const SharedMaterial clay(Material{.color = clay_color});
     return &*material == &*cut_material() ? material : clay;

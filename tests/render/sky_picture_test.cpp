@@ -118,7 +118,7 @@ TEST_CASE("cameras, mirrors and clear glass see the sun as it is") {
   CHECK(along(scene, {0, 1, 0}, evening.sun).g == doctest::Approx(sun.g).epsilon(1e-2));
 }
 
-TEST_CASE("rough metal has the sun by samples alone, as much of it as of another light") {
+TEST_CASE("rough metal has the sun by samples alone, also through clear glass") {
   // The same sky by a background that shows no sun and lights that are written out.
   const PrincipledMaterial metal{.color = Color{1, 1, 1}, .metallic = 1.0, .roughness = 0.3};
   SkyBackground shown = evening;
@@ -128,6 +128,10 @@ TEST_CASE("rough metal has the sun by samples alone, as much of it as of another
     scene.entities = {floor_of(metal)};
     const Vec3 down(evening.sun.x, -evening.sun.y - degrees_off * 0.02, evening.sun.z);
     const Color own = along(scene, {0, 1, 0}, down);
+    scene.entities.push_back(
+        Box{.corner_a = {-9, 1.5, -9}, .corner_b = {9, 1.6, 9}, .material = glass(1)});
+    CHECK(along(scene, {0, 1, 0}, down).g == doctest::Approx(own.g).epsilon(0.02));
+    scene.entities.pop_back();
     scene.background = shown;
     scene.lights = {EnvironmentLight{}, core::Sky(evening).sunlight()};
     const Color written = along(scene, {0, 1, 0}, down);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crt/error.hpp"
@@ -192,6 +193,66 @@ TEST_CASE("beside what casts no shadow all is lit as if it were not there") {
         CHECK_FALSE(same_pixels(a, c));
       }
     }
+  }
+}
+
+TEST_CASE("a light that rays find, too, lights as much behind what casts no shadow") {
+  constexpr double radius = 3;
+  constexpr double height = 4;
+  const Color radiance = grey(height * height / (radius * radius));  // A white floor is 1.
+  const auto pane = [](double bottom, const SharedMaterial& material) {
+    return Entity(
+        Box{.corner_a = {-2, bottom, -2}, .corner_b = {2, bottom + 0.1, 2}, .material = material});
+  };
+  const SharedMaterial rough(PrincipledMaterial{
+      .color = grey(1), .roughness = 0.3, .refractive_index = 1, .transmission = 1});
+  const std::vector<std::vector<Entity>> between = {
+      {},
+      {pane(0.2, inert()).with_shadow(false)},
+      {pane(0.2, inert(0, 0.5)).with_shadow(false)},
+      {pane(0.2, glass(1)).with_shadow(false), pane(0.4, glass(1)).with_shadow(false)},
+      {pane(0.2, rough).with_shadow(false)},
+      // Rays alone find light that comes through glass. Not so where they are blocked.
+      {pane(0.2, inert()).with_shadow(false), pane(0.4, glass(1))},
+      {pane(0.2, glass(1)), pane(0.4, inert()).with_shadow(false)},
+      {pane(0.2, glass(1)), pane(0.4, glass(1)).with_shadow(false)},
+      {pane(0.2, glass(1)).with_shadow(false), pane(0.4, glass(1))}};
+  Scene scene = dark_scene();
+  scene.settings.indirect = 1;
+  scene.settings.recursion_depth = 8;
+  scene.settings.target_error = 1e-9;
+  scene.settings.min_samples = scene.settings.max_samples = 4096;
+  scene.camera.fov = 1e-6;
+  const auto brightness = [&](const SharedMaterial& floor, std::vector<Entity> entities) {
+    entities.push_back(Plane{.material = floor});
+    scene.entities = std::move(entities);
+    return seen(scene, {0.1, 0.1, 0}, {0, 0, 0}).r;
+  };
+  const auto check = [&](const std::vector<Entity>& lights) {
+    const SharedMaterial matt(Material{.color = grey(1), .diffuse = 1});
+    const SharedMaterial metal(PrincipledMaterial{.color = grey(1), .metallic = 1});
+    const double of_metal = brightness(metal, lights);
+    for (const std::vector<Entity>& entities : between) {
+      CAPTURE(&entities - between.data());
+      std::vector<Entity> all = entities;
+      all.insert(all.end(), lights.begin(), lights.end());
+      CHECK(brightness(matt, all) == doctest::Approx(1).epsilon(0.01));
+      CHECK(brightness(metal, all) == doctest::Approx(of_metal).epsilon(0.01));
+    }
+  };
+  SUBCASE("a light of the scene") {
+    scene.lights = {SphereLight{.center = {0, height, 0}, .radius = radius, .color = radiance}};
+    check({});
+  }
+  SUBCASE("a surface that gives off light") {
+    check({Sphere{.center = {0, height, 0},
+                  .radius = radius,
+                  .material = Material{.color = grey(0), .emission = radiance}}});
+  }
+  SUBCASE("the background") {
+    scene.lights = {EnvironmentLight{}};
+    scene.background = SolidBackground{{1, 1, 1}};
+    check({});
   }
 }
 

@@ -58,6 +58,8 @@ std::array<double, 4> numbers_of(std::uint64_t seed, int x, int y, std::uint32_t
   const std::size_t lane = index % lane_count;
   each[lane] = {.x = x, .y = y, .index = index, .decision = 1 + decision};
   const auto numbers = PixelSequence::numbers_of_each(seed, each);
+  const auto first = PixelSequence::first_numbers_of_each(seed, each);
+  for (std::size_t d = 0; d < first.size(); ++d) CHECK(all(first[d] == numbers[d]));
   return {numbers[0][lane], numbers[1][lane], numbers[2][lane], numbers[3][lane]};
 }
 

@@ -95,6 +95,25 @@ TEST_CASE("materials keep their colours, also in a room without a window") {
   }
 }
 
+TEST_CASE("what gives off light is seen, and lights materials no more if it is strong") {
+  const auto beside = [](const SharedMaterial& material) {
+    Scene scene = two_balls(red, material);
+    scene.entities.push_back(Box{.corner_a = {-3, -3, 1.5}, .corner_b = {3, 3, 2}});
+    return shown(scene, ViewMode::material);
+  };
+  const Color weak = {2, 1, 0};
+  const Color strong = {128, 64, 0};
+  const Image image = beside(Material{.color = grey(0), .emission = weak});
+  CHECK(image.at(37, 12).r == doctest::Approx(1));
+  CHECK(image.at(37, 12).g == doctest::Approx(0.5));
+  CHECK(same_pixels(image, beside(Material{.color = grey(0), .emission = strong})));
+  CHECK(same_pixels(beside(PrincipledMaterial{.emission = weak}),
+                    beside(PrincipledMaterial{.emission = strong})));
+  // The wall beside it is not far from what it is without.
+  const Image without = beside(Material{.color = grey(0)});
+  CHECK(image.at(47, 12).r < without.at(47, 12).r + 0.3);
+}
+
 TEST_CASE("a metal mirrors the studio's lights, brighter than white and not all the same") {
   const Image image = shown(two_balls(mirror, mirror), ViewMode::material);
   double darkest = 1e9;

@@ -52,7 +52,8 @@ class Accelerator {
   void all(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
   /// See PreparedData::paths_to_light(), which sorts the crossings.
   LightPaths paths_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
-                            const Opacity& opacity, Packets packets, RayWorkspace& work) const;
+                            const Opacity& opacity, Packets packets, RayWorkspace& work,
+                            PassingRays kind) const;
   /// Appends for each solid around the ray's start its next crossing, unsorted. A solid that the
   /// ray never leaves counts as left at infinity.
   void containing_solids(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;

@@ -286,17 +286,17 @@ RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, 
 
 LightPaths Accelerator::paths_to_light(const RayBatch& rays, const PacketStarts& starts,
                                        RayMask some, const Opacity& opacity, Packets packets,
-                                       RayWorkspace& work) const {
+                                       RayWorkspace& work, PassingRays kind) const {
   for_each_ray(some, [&](std::size_t i) { work.on_paths[i].clear(); });
   const std::span found(work.on_paths);
   RayMask reaching = 0;
   if (pay_together(rays, some, packets)) {
-    const AskLight asked{{passing_shadow}, opacity, found};
+    const AskLight asked{{kind}, opacity, found};
     reaching = follow<Lanes>(rays, starts, some, asked, work);
   } else {
     for_each_ray(some, [&](std::size_t i) {
       const WorldRay ray = rays.ray(i);
-      const AskLight asked{{passing_shadow}, opacity, found.subspan(i, 1)};
+      const AskLight asked{{kind}, opacity, found.subspan(i, 1)};
       reaching |= follow<double>(ray, noted_starts(ray), 1, asked, work) << i;
     });
   }

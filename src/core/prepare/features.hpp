@@ -25,7 +25,8 @@ struct Features {
   bool emission = false;    ///< some material gives off light
   bool lens = false;        ///< has_lens() and more than one sample of it
   bool csg = false;
-  bool unseen = false;  ///< camera rays pass some object
+  bool unseen = false;      ///< camera rays pass some object
+  bool shadowless = false;  ///< light passes some object
   /// The light that a surface lets through is multiplied by at most this. It is 1 if none brightens
   /// it.
   double gain = 1;

@@ -154,6 +154,7 @@ PreparedData::PreparedData(const Scene& scene, const PrepareOptions& options,
   layer_tables_.settle();
   features_ = find_features(scene_, materials_, entities_.geometry->has_csg);
   features_.unseen = (accelerator_->kinds_that_pass() & passing_camera) != 0;
+  features_.shadowless = (accelerator_->kinds_that_pass() & passing_shadow) != 0;
 
   warnings_ = textures_.warnings();
   for (std::string& warning : normals_.warnings()) warnings_.push_back(std::move(warning));
@@ -206,8 +207,8 @@ RayMask PreparedData::occluded_each(const RayBatch& rays, RayMask some, RayWorks
 }
 
 RayMask PreparedData::shadowed_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
-                                    RayWorkspace& work) const {
-  return accelerator_->any_each(rays, starts, some, Packets::where_they_pay, work, passing_shadow);
+                                    RayWorkspace& work, PassingRays kind) const {
+  return accelerator_->any_each(rays, starts, some, Packets::where_they_pay, work, kind);
 }
 
 PacketStarts PreparedData::noted_starts(const RayBatch& rays, RayMask some) const {
@@ -215,9 +216,10 @@ PacketStarts PreparedData::noted_starts(const RayBatch& rays, RayMask some) cons
 }
 
 LightPaths PreparedData::paths_to_light(const RayBatch& rays, const PacketStarts& starts,
-                                        RayMask some, RayWorkspace& work, Packets packets) const {
+                                        RayMask some, RayWorkspace& work, Packets packets,
+                                        PassingRays kind) const {
   const LightPaths paths =
-      accelerator_->paths_to_light(rays, starts, some, opacity_, packets, work);
+      accelerator_->paths_to_light(rays, starts, some, opacity_, packets, work, kind);
   for_each_ray(paths.filtered,
                [&](std::size_t i) { accelerator_->sort(rays.ray(i), work.on_paths[i], work); });
   return paths;

@@ -102,15 +102,16 @@ class PreparedData {
                         Packets packets = Packets::where_they_pay) const;
 
   /// Asks whether light is blocked on its path along rays for which it is known what they start on.
-  /// It passes what casts no shadow.
+  /// It passes what casts no shadow, unless the rays are of another kind.
   RayMask shadowed_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
-                        RayWorkspace& work) const;
+                        RayWorkspace& work, PassingRays kind = passing_shadow) const;
   PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
   /// Finds what light meets on its path along these rays. For each ray that is filtered, the
   /// crossings are in RayWorkspace::on_paths, as crossings() has them.
   LightPaths paths_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
-                            RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
+                            RayWorkspace& work, Packets packets = Packets::where_they_pay,
+                            PassingRays kind = passing_shadow) const;
 
   /// Finds every crossing in ascending t. Crossings of one surface have one t, and there solids are
   /// left before others are entered.

@@ -70,8 +70,14 @@ void draw_numbers(const TraceContext& context, const PathRays& rays, RayMask som
                   std::uint32_t kind, int sample, ShadowRays& shadow_rays) {
   const int samples = context.frame.settings().light_samples;
   RayPacket::for_each_group(some, [&](std::size_t group, RayMask) {
-    const auto [u, v, choice, spare] = rays.draw(context.frame, group, kind, samples, sample);
-    shadow_rays.numbers[group] = {u, v, choice};
+    LightNumbers& numbers = shadow_rays.numbers[group];
+    if (kind == SampleDecision::chosen_light) {
+      const auto [u, v, choice, spare] = rays.draw(context.frame, group, kind, samples, sample);
+      numbers = {u, v, choice};
+    } else {
+      const auto [u, v] = rays.draw<2>(context.frame, group, kind, samples, sample);
+      numbers = {u, v};
+    }
   });
 }
 
@@ -151,7 +157,8 @@ RayMask aim_at(const Source& source, const Surfaces& surfaces, RayMask some,
     LaneMask lit = lanes_with(lanes);
     lit &= source.light == nullptr
                ? sample_chosen(*source.chosen, group, lanes, rays.numbers[i], samples, found)
-               : source.light->sample(group.position, group.path_length, rays.numbers[i], samples);
+               : source.light->sample(group.position, group.path_length, rays.numbers[i], samples,
+                                      rays.views[i]);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
     const FoundByRays of_group{.diffuse = RayPacket::lanes(found_by.diffuse, i) & found,
                                .scattered = RayPacket::lanes(found_by.scattered, i) & found};
@@ -177,16 +184,35 @@ RayMask aim_at(const Source& source, const Surfaces& surfaces, RayMask some,
   return aimed;
 }
 
-/// Finds what is on the paths of some shadow rays.
+/// Finds what shadow rays of a kind meet on their paths.
 LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const PacketStarts& starts,
-                          RayMask some) {
+                          RayMask some, PassingRays kind = passing_shadow) {
   const auto count = static_cast<unsigned>(std::popcount(some));
   context.work.stats.shadow_rays += count;
   context.count_rays(count);
   const PreparedData& data = context.data;
   RayWorkspace& work = context.work.rays;
-  if (data.features().transparency) return data.paths_to_light(batch, starts, some, work);
-  return {.blocked = data.shadowed_each(batch, starts, some, work)};
+  if (data.features().transparency)
+    return data.paths_to_light(batch, starts, some, work, Packets::where_they_pay, kind);
+  return {.blocked = data.shadowed_each(batch, starts, some, work, kind)};
+}
+
+/// Finds what is on the paths of shadow rays that were sent to a light that rays find, too. What
+/// casts no shadow hides the light from rays, and there it aims again, at all of the light.
+LightPaths paths_beside_rays(TraceContext& context, const Source& source, const Surfaces& surfaces,
+                             const PacketStarts& starts, RayMask sent, const FoundByRays& found_by,
+                             ShadowRays& rays) {
+  const RayBatch& batch = rays.batch;
+  const LightPaths of_rays = paths_to_light(context, batch, starts, sent, passing_none);
+  const LightPaths paths =
+      paths_to_light(context, batch, starts, of_rays.blocked | of_rays.filtered);
+  const RayMask hidden = (of_rays.blocked & ~paths.blocked) | (of_rays.filtered & ~paths.filtered);
+  if (hidden != 0) {
+    const FoundByRays elsewhere{.diffuse = found_by.diffuse & ~hidden,
+                                .scattered = found_by.scattered & ~hidden};
+    aim_at(source, surfaces, batch.with_starts, elsewhere, rays);
+  }
+  return paths;
 }
 
 /// Adds what gets through along shadow rays that were sent, times a factor, and is sent back. Those
@@ -227,13 +253,19 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   FoundByRays found_by{.diffuse = rays.sending_diffuse(settings.indirect)};
   if (context.data.features().principled)
     found_by.scattered = rays.within_depth(settings.recursion_depth);
+  const bool may_be_hidden =
+      context.data.features().shadowless && (found_by.diffuse | found_by.scattered) != 0;
   const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   const auto add = [&](const Source& source, bool has_size, std::uint32_t kind, std::size_t index) {
     const int samples = has_size ? settings.light_samples : 1;
+    for (LightView& view : shadow_rays.views) view.is_known = false;
     for (int sample = 0; sample < samples; ++sample) {
       if (has_size) draw_numbers(context, rays, some, kind, sample, shadow_rays);
       const RayMask sent = aim_at(source, surfaces, some, found_by, shadow_rays);
-      const LightPaths paths = paths_to_light(context, batch, starts, sent);
+      const LightPaths paths =
+          may_be_hidden && source.is_found_by_rays()
+              ? paths_beside_rays(context, source, surfaces, starts, sent, found_by, shadow_rays)
+              : paths_to_light(context, batch, starts, sent);
       // Shadows of what has a size have no edge.
       if (context.identifies && !has_size)
         identify_shadows(rays, index, paths.blocked | paths.filtered);

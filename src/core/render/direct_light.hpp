@@ -13,6 +13,7 @@ struct ShadowRays {
   /// transparent. It is set where PreparedLight::is_found_by_rays().
   std::array<VectorLanes, RayPacket::group_count> found_by_rays;
   std::array<LightNumbers, RayPacket::group_count> numbers;  ///< of lights with a size
+  std::array<LightView, RayPacket::group_count> views;       ///< of the light that is asked
   LightSamples samples;  ///< of a group; a new one for each would be filled with zeros first
 };
 

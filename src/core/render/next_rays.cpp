@@ -1,5 +1,6 @@
 #include "core/render/next_rays.hpp"
 
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -16,6 +17,10 @@ namespace {
 /// A sample follows no more rays than this: where every hit sends two full-weight rays on, a deep
 /// recursion would not end in a lifetime. With weights that add up to 1 it is never reached.
 constexpr int max_rays_per_sample = 65536;
+
+/// The samples of lights that a surface takes pass what casts no shadow, and stand for all light
+/// behind it. So a ray through it goes on as if it had hardly any chance to find these lights.
+constexpr double least_density = std::numeric_limits<double>::min();
 
 /// A Branch is the rays of a group that go on in one way.
 struct Branch {
@@ -49,8 +54,7 @@ Branch diffuse_rays(const TraceContext& context, const PathRays& rays, const Sur
   branch.rays = (some & mask_of(from.phong.diffuse > 0.0)) | principled;
   branch.rays &= RayPacket::lanes(rays.sending_diffuse(context.frame.settings().indirect), group);
   if (branch.rays == 0) return branch;
-  const auto [u, v, spare_u, spare_v] =
-      rays.draw(context.frame, group, SampleDecision::diffuse_direction);
+  const auto [u, v] = rays.draw<2>(context.frame, group, SampleDecision::diffuse_direction);
   const auto [x, y] = point_of_disc(u, v);
   const Lanes upwards = sqrt(max(Lanes{}, 1.0 - x * x - y * y));
   const VectorLanes& normal = from.phong.normal;
@@ -199,6 +203,7 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       path.kind = kind;
       path.path_length = from.path_length();
       path.density = branch.densities[lane];
+      path.is_scattered = state.is_scattered || path.density > 0;
       if (context.data.chosen_lights() != nullptr)
         path.normal = PackedDirection(surfaces.groups[group].face_normal.lane(lane));
       return path;
@@ -223,6 +228,11 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
       ++through.bounces;
       through.media = parts.media_behind[lane];
       through.media_mark = work.media.mark();
+      if (context.data.features().shadowless && state.density > 0 &&
+          context.data.is_passed(hits.hits[ray].object, passing_shadow)) {
+        through.density = least_density;
+        through.normal = state.normal;
+      }
       stats.media_changes += context.data.is_solid(hits.hits[ray]);
     }
     take(stats, last, work, sample, next);

@@ -61,10 +61,17 @@ struct PathRays {
     for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].density > 0) << i;
     return mask;
   }
-  /// Draws the numbers of a decision of a kind for a group, of one of some samples of it.
-  std::array<Lanes, sequence_dimensions> draw(const Frame& frame, std::size_t group,
-                                              std::uint32_t kind, int samples = 1,
-                                              int sample = 0) const {
+  /// Returns those with such a direction, or that come from such a ray by mirrors and glass.
+  RayMask after_scattering() const {
+    RayMask mask = 0;
+    for (std::size_t i = 0; i < count; ++i) mask |= mask_of(states[i].is_scattered) << i;
+    return mask;
+  }
+  /// Draws the numbers of a decision of a kind for a group, of one of some samples of it: two of
+  /// them, or all four.
+  template <std::size_t numbers = sequence_dimensions>
+  std::array<Lanes, numbers> draw(const Frame& frame, std::size_t group, std::uint32_t kind,
+                                  int samples = 1, int sample = 0) const {
     std::array<SampleId, lane_count> ids{};
     std::array<SampleDecision, lane_count> decisions{};
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -77,10 +84,13 @@ struct PathRays {
     }
     const std::uint64_t seed = frame.settings().seed;
     if (!are_from_camera() || samples > 1 || !frame.takes_numbers_of_lens(kind))
-      return sample_numbers(seed, ids, decisions);
+      return sample_numbers<numbers>(seed, ids, decisions);
     const auto [u, v] = numbers_of_lens(seed, ids);
-    if (kind != SampleDecision::chosen_light) return {u, v};
-    return {u, v, sample_numbers(seed, ids, decisions)[2]};
+    if constexpr (numbers > 2) {
+      if (kind == SampleDecision::chosen_light)
+        return {u, v, sample_numbers(seed, ids, decisions)[2]};
+    }
+    return {u, v};
   }
   /// Returns those that come after a diffuse bounce.
   RayMask after_diffuse() const {

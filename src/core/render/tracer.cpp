@@ -32,9 +32,9 @@ void clamp_bounced(const TraceContext& context, const PathRays& rays, PathLight&
 }
 
 /// Adds the sun of a sky to what rays see of it. Surfaces that draw directions, and diffuse ones,
-/// have taken samples of it as of other lights.
+/// have taken samples of it as of other lights, through clear glass as well.
 void add_sun(const Sky& sky, const PathRays& rays, PathLight& light) {
-  const RayMask some = light.rays & ~(rays.after_diffuse() | rays.drawn());
+  const RayMask some = light.rays & ~rays.after_scattering();
   RayPacket::for_each_group(some, [&](std::size_t group, RayMask lanes) {
     const VectorLanes sun = sky.sun(rays.batch.lines[group].direction);
     VectorLanes& colors = light.colors[group];

@@ -24,7 +24,8 @@ enum class RayKind : std::uint8_t { camera, reflection, refraction, diffuse };
 /// A PathState is what a ray has behind it.
 struct PathState {
   RayKind kind = RayKind::camera;
-  int bounces = 0;  ///< in mirrors and glass, before this ray
+  bool is_scattered = false;  ///< whether the direction of it, or of a ray before it, was drawn
+  int bounces = 0;            ///< in mirrors and glass, before this ray
   int diffuse_bounces = 0;
   PackedDirection normal;  ///< of the surface, where there are ChosenLights
   double path_length = 0;  ///< from the camera to the ray's origin

@@ -27,11 +27,12 @@ struct SampleDecision {
   static constexpr std::uint32_t of_light(std::uint32_t light) { return light % (max_kinds / 2); }
 };
 
-/// Returns the numbers by which as many samples decide as there are lanes. The samples of a pixel
-/// get each number distributed evenly over [0, 1).
-inline std::array<Lanes, sequence_dimensions> sample_numbers(
-    std::uint64_t seed, const std::array<SampleId, lane_count>& samples,
-    const std::array<SampleDecision, lane_count>& decisions) {
+/// Returns the numbers by which as many samples decide as there are lanes: two, or all four. The
+/// samples of a pixel get each number distributed evenly over [0, 1).
+template <std::size_t count = sequence_dimensions>
+std::array<Lanes, count> sample_numbers(std::uint64_t seed,
+                                        const std::array<SampleId, lane_count>& samples,
+                                        const std::array<SampleDecision, lane_count>& decisions) {
   std::array<PixelSequence::Decision, lane_count> each;
   for (std::size_t i = 0; i < lane_count; ++i) {
     const auto& [ray, kind] = decisions[i];
@@ -40,7 +41,11 @@ inline std::array<Lanes, sequence_dimensions> sample_numbers(
                .index = samples[i].index,
                .decision = ray * SampleDecision::max_kinds + kind};
   }
-  return PixelSequence::numbers_of_each(seed, each);
+  if constexpr (count == 2) {
+    return PixelSequence::first_numbers_of_each(seed, each);
+  } else {
+    return PixelSequence::numbers_of_each(seed, each);
+  }
 }
 
 /// Returns the numbers of samples for the lens, which are distributed evenly together with the

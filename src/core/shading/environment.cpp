@@ -42,8 +42,13 @@ struct Drawn {
   double rest;  ///< where in the entry, in [0, 1)
 };
 Drawn draw(std::span<const double> before, double number) {
-  const auto next = std::upper_bound(before.begin() + 1, before.end() - 1, number);
-  const auto entry = static_cast<std::size_t>(next - before.begin()) - 1;
+  // Halving without branches, as nobody can predict where a random number leads.
+  std::size_t entry = 0;
+  for (std::size_t count = before.size() - 1; count > 1;) {
+    const std::size_t half = count / 2;
+    entry += before[entry + half] <= number ? half : 0;
+    count -= half;
+  }
   const double share = before[entry + 1] - before[entry];
   return {entry, std::min((number - before[entry]) / share, 1 - 0x1p-53)};
 }

@@ -103,8 +103,8 @@ void PreparedLight::set_rectangle_around(double area) {
   corner_ = corner;
   // Rays beside the light are noise, which pays only where its own places differ more.
   constexpr double rounding = 0x1p-40;
-  const bool is_all_of_it = area >= (1 - rounding) * frame.width * frame.height;
-  near_ = (is_all_of_it ? 4 : 0.5) * elementary::hypot(frame.width, frame.height);
+  fills_around_ = area >= (1 - rounding) * frame.width * frame.height;
+  near_ = (fills_around_ ? 4 : 0.5) * elementary::hypot(frame.width, frame.height);
 }
 
 PreparedLight::PreparedLight(const PointLight& light)

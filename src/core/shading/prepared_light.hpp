@@ -50,6 +50,14 @@ struct LightMet {
   Lanes t{};
 };
 
+/// A LightView is what points see of a light, whichever samples of it they take. The first one
+/// finds it out.
+struct LightView {
+  bool is_known = false;
+  LaneMask near{};                           ///< the points that a flat light is near to
+  std::optional<SphericalRectangle> around;  ///< what these see, if there are any
+};
+
 /// A LightExtent is where a light with a size is, for all that matters from afar.
 struct LightExtent {
   Bounds bounds;
@@ -91,9 +99,15 @@ class PreparedLight {
   LightExtent extent() const;
 
   /// Samples the light at points and returns where it shines. `path_lengths` are the lengths of the
-  /// paths from the camera to the points, over all bounces.
+  /// paths from the camera to the points, over all bounces. The view is of these points and of this
+  /// light, or not known.
   LaneMask sample(const VectorLanes& points, const Lanes& path_lengths, const LightNumbers& numbers,
-                  LightSamples& light) const;
+                  LightSamples& light, LightView& view) const;
+  LaneMask sample(const VectorLanes& points, const Lanes& path_lengths, const LightNumbers& numbers,
+                  LightSamples& light) const {
+    LightView view;
+    return sample(points, path_lengths, numbers, light, view);
+  }
 
   /// Returns where lines first meet the light's shining side after their origin. t is off by some
   /// roundings of the coordinates.
@@ -138,6 +152,8 @@ class PreparedLight {
   void sample_area(const VectorLanes& points, const VectorLanes& on_light,
                    const VectorLanes& normals, const Lanes& areas_over_pi,
                    LightSamples& light) const;
+  /// Returns the cosines of directions to a surface with the normals, or 0 where it does not shine.
+  Lanes shining_cosines(const VectorLanes& directions, const VectorLanes& normals) const;
   void sample_flat(const VectorLanes& points, const VectorLanes& on_light,
                    LightSamples& light) const;
   /// Returns places of a flat light, spread evenly over its area.
@@ -146,7 +162,7 @@ class PreparedLight {
                    LightSamples& light) const;
   /// Replaces the samples of points that a flat light is near to. They are drawn evenly over the
   /// solid angle of the rectangle around it, and those beside the light find nothing.
-  void sample_near(const VectorLanes& points, const LightNumbers& numbers,
+  void sample_near(const VectorLanes& points, const LightView& view, const LightNumbers& numbers,
                    LightSamples& light) const;
   /// Returns the points to which a flat light is so near.
   LaneMask are_near(const VectorLanes& points) const;
@@ -185,6 +201,7 @@ class PreparedLight {
   Vec3 edge_a_{0, 0, 0};     ///< of a disc these are half axes
   Vec3 edge_b_{0, 0, 0};
   std::optional<RectangleFrame> around_;  ///< a rectangle around a flat light, if it fits well
+  bool fills_around_ = false;             ///< whether it is all of that rectangle
   Vec3 corner_{0, 0, 0};                  ///< of that rectangle
   double near_ = 0;                       ///< the distance from its middle up to which it counts
 };

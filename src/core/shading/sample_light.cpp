@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/geometry/angles.hpp"
 #include "core/math/direction_and_length.hpp"
@@ -36,7 +37,8 @@ VectorLanes directions_in_cone(const VectorLanes& axis, const Lanes& cone_versin
 }  // namespace
 
 LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_lengths,
-                               const LightNumbers& numbers, LightSamples& light) const {
+                               const LightNumbers& numbers, LightSamples& light,
+                               LightView& view) const {
   const Lanes infinity = lanes_of(std::numeric_limits<double>::infinity());
   light.intensities = lanes_of(1);
   light.colors = lanes_of(color_);
@@ -74,8 +76,12 @@ LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_leng
     case Kind::disc:
     case Kind::rectangle:
     case Kind::triangle:
-      sample_flat(points, places(numbers), light);
-      sample_near(points, numbers, light);
+      if (!std::exchange(view.is_known, true)) {
+        view.near = are_near(points);
+        if (any(view.near)) view.around.emplace(*around_, lanes_of(corner_) - points);
+      }
+      if (!all(view.near)) sample_flat(points, places(numbers), light);
+      if (any(view.near)) sample_near(points, view, numbers, light);
       break;
     case Kind::tube:
       sample_tube(points, numbers, light);
@@ -117,12 +123,17 @@ void PreparedLight::sample_ball(const VectorLanes& points, const LightNumbers& n
   light.intensities = select(is_outside, 2.0 / (1.0 + cosine), lanes_of(1));
 }
 
+Lanes PreparedLight::shining_cosines(const VectorLanes& directions,
+                                     const VectorLanes& normals) const {
+  const Lanes towards = -dot(directions, normals);
+  return is_two_sided_ ? abs(towards) : max(Lanes{}, towards);
+}
+
 void PreparedLight::sample_area(const VectorLanes& points, const VectorLanes& on_light,
                                 const VectorLanes& normals, const Lanes& areas_over_pi,
                                 LightSamples& light) const {
   directions_and_lengths(on_light - points, light.directions, light.distances);
-  const Lanes towards = -dot(light.directions, normals);
-  const Lanes cosine = is_two_sided_ ? abs(towards) : max(Lanes{}, towards);
+  const Lanes cosine = shining_cosines(light.directions, normals);
   const Lanes squared = light.distances * light.distances;
   light.intensities = min(lanes_of(largest_intensity), areas_over_pi * cosine / squared);
   light.distances = select(cosine > 0.0, light.distances, Lanes{});
@@ -159,20 +170,19 @@ LaneMask PreparedLight::are_near(const VectorLanes& points) const {
   return dot(offset, offset) < near_ * near_ && height * height > flattest * flattest * squared;
 }
 
-void PreparedLight::sample_near(const VectorLanes& points, const LightNumbers& numbers,
-                                LightSamples& light) const {
-  const LaneMask near = are_near(points);
-  if (!any(near)) return;
-  const SphericalRectangle around(*around_, lanes_of(corner_) - points);
-  const VectorLanes on_light = points + around.sample(numbers);
-  LightSamples even;
-  sample_flat(points, on_light, even);
-  const LaneMask found = holds(on_light - lanes_of(origin_));
-  const Lanes distances = select(found, even.distances, Lanes{});
-  light.directions = select(near, even.directions, light.directions);
-  light.distances = select(near, distances, light.distances);
-  light.intensities =
-      select(near, (1 / std::numbers::pi) * around.solid_angles(), light.intensities);
+void PreparedLight::sample_near(const VectorLanes& points, const LightView& view,
+                                const LightNumbers& numbers, LightSamples& light) const {
+  const VectorLanes to_light = view.around->sample(numbers);
+  VectorLanes directions;
+  Lanes distances;
+  directions_and_lengths(to_light, directions, distances);
+  LaneMask found = shining_cosines(directions, lanes_of(axis_)) > 0.0;
+  if (!fills_around_) found &= holds(points + to_light - lanes_of(origin_));
+  distances = select(found, distances, Lanes{});
+  light.directions = select(view.near, directions, light.directions);
+  light.distances = select(view.near, distances, light.distances);
+  const Lanes intensities = (1 / std::numbers::pi) * view.around->solid_angles();
+  light.intensities = select(view.near, intensities, light.intensities);
 }
 
 PreparedLight::TubeView PreparedLight::view_of_tube(const VectorLanes& points) const {

@@ -44,7 +44,9 @@ class SphericalRectangle {
   Lanes z_;  ///< not above 0
   Lanes b0_;
   Lanes b1_;
-  Lanes k_;
+  Lanes w0_;  ///< with b0 it is a unit vector
+  Lanes cosine_of_k_;
+  Lanes sine_of_k_;
   Lanes z_sign_;
   Lanes solid_angles_;
 };
