@@ -150,10 +150,10 @@ struct LinePiece {
 /// units, and below 0 behind it. They are found to rounding. Where parts of a union touch, the
 /// piece goes on, by identity. A piece or a gap that is no longer than rounding may be left out.
 /// Where the line runs along a surface, or merely touches one, `from` and `to` may hold all of that
-/// stretch. Throws Error (invalid_argument) for an origin that is not finite, and a direction that
-/// is not or that is 0.
+/// stretch. Of the options only `go_on` and `work` count. Throws Error (invalid_argument) for an
+/// origin that is not finite, and a direction that is not or that is 0.
 std::vector<LinePiece> thickness_along(const Entity& entity, const Vec3& origin,
-                                       const Vec3& direction);
+                                       const Vec3& direction, const MeasureOptions& options = {});
 
 /// WallOptions say what a wall is, and how well its thickness is to be known.
 struct WallOptions {

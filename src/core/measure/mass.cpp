@@ -78,8 +78,6 @@ class MassSearch {
  private:
   static constexpr std::size_t most_cells = std::size_t{1} << 20;
   static constexpr std::size_t cells_of_task = 32;
-  /// What is found of a cell takes as long as so many looks at a leaf.
-  static constexpr std::uint64_t looks_of_cell = 4;
   /// Time is looked at after so many.
   static constexpr std::size_t cells_of_round = std::size_t{1} << 13;
 
