@@ -71,6 +71,11 @@ Interval volume(const Entity& entity, const MeasureOptions& options = {});
 /// The upper end is infinite while a place of the surface is so narrow that nothing bounds it.
 Interval surface_area(const Entity& entity, const MeasureOptions& options = {});
 
+/// Returns the centroid of a solid, each coordinate to a width relative to half of the longest side
+/// of the box around it. It takes less long than all mass properties. What is known of a solid
+/// without a volume is everything.
+std::array<Interval, 3> centroid(const Entity& entity, const MeasureOptions& options = {});
+
 /// Returns all mass properties of a solid. It takes some times as long as the volume alone.
 MassProperties mass_properties(const Entity& entity, const MeasureOptions& options = {});
 
@@ -103,6 +108,13 @@ BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& optio
 struct NearestPoint {
   Interval distance;    ///< below 0 for a point in the solid
   Vec3 point{0, 0, 0};  ///< of the surface, as far away as the interval says, to its width
+
+  /// Returns how far away that point is, which is never less than the distance: below 0 in the
+  /// solid, and 0 on its surface.
+  double signed_distance() const {
+    if (distance.upper <= 0) return distance.lower;
+    return distance.lower < 0 ? 0 : distance.upper;
+  }
 };
 
 /// Finds the nearest points of a solid's surface. Distances are found to `relative_width` of

@@ -55,13 +55,6 @@ void copy_to(double* out, const Vec3& point) {
   for (int axis = 0; axis < 3; ++axis) out[axis] = point[axis];
 }
 
-/// Returns how far away the point is that was found, below 0 if that is seen from inside.
-double signed_distance_of(const NearestPoint& nearest) {
-  const Interval& distance = nearest.distance;
-  if (distance.upper <= 0) return distance.lower;
-  return distance.lower < 0 ? 0 : distance.upper;  // a point on the surface has both signs
-}
-
 std::vector<Entity> overlapping_entities(crt_entity* const* entities, std::size_t count) {
   if (count > 0) require(entities, "entities");
   std::vector<Entity> list;
@@ -147,7 +140,7 @@ crt_status crt_entity_distance(crt_entity* entity, const double* points, size_t 
     std::vector<crt::NearestPoint> answers(count);
     crt::nearest_points(entity->value, questions, answers);
     for (std::size_t i = 0; i < count; ++i) {
-      signed_distance[i] = signed_distance_of(answers[i]);
+      signed_distance[i] = answers[i].signed_distance();
       if (wants_points) std::memcpy(places[i], &answers[i].point, sizeof(crt::Vec3));
     }
   });

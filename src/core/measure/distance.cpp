@@ -147,6 +147,9 @@ class PointSearch {
   NearestSearch<OpenNode> search_;
 };
 
+/// To compare two cells takes as long as so many looks at leaves.
+constexpr std::uint64_t looks_of_pair = 8;
+
 class PairSearch {
  public:
   PairSearch(const EntityCells& a, const EntityCells& b, const MeasureOptions& options,
@@ -180,7 +183,7 @@ class PairSearch {
       tree.divide(number);
       const std::uint32_t first = tree.node(number).first_part;
       const std::uint32_t count = tree.node(number).part_count;
-      clock_.count(tree.take_looks() + count);
+      clock_.count(tree.take_looks() + looks_of_pair * count);
       if (count == 0) search_.leave(open.least);
       for (std::uint32_t i = first; i < first + count; ++i) {
         if (divides_a) add(i, open.b);
