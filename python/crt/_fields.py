@@ -364,6 +364,17 @@ FIELDS = {
         ),
         ("double first_overlap[3]", "a point near the first of these places"),
     ),
+    "crt_measure_options": (
+        ("int32_t threads", "as in crt_render_options; 0 means all"),
+        ("double relative_width", "above 0 and at most 1; 0 means what each function says"),
+        ("double seconds", "ends the search with what is known then; 0 or INFINITY: no such end"),
+        (
+            "crt_poll_fn poll",
+            "None, or a callback that may cancel: the call then ends with Status.CANCELLED. Any"
+            " of the threads that work may call it, one at a time.",
+        ),
+        ("void* poll_user", ""),
+    ),
     "crt_mass": (
         ("uint32_t reserved", "0"),
         ("crt_interval volume", "parts that overlap count once"),

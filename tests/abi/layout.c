@@ -229,6 +229,13 @@ AT(crt_render_options, aovs, 68);
 AT(crt_render_options, checkpoint, 72);
 AT(crt_render_options, max_ray_steps, 80);
 
+SIZE(crt_measure_options, 40);
+AT(crt_measure_options, struct_size, 0);
+AT(crt_measure_options, threads, 4);
+AT(crt_measure_options, relative_width, 8);
+AT(crt_measure_options, seconds, 16);
+AT(crt_measure_options, poll, 24);
+AT(crt_measure_options, poll_user, 32);
 SIZE(crt_prepare_options, 40);
 AT(crt_prepare_options, struct_size, 0);
 AT(crt_prepare_options, reserved, 4);
