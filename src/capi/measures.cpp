@@ -272,7 +272,8 @@ crt_status crt_entity_thickness(crt_entity* entity, double relative_width, crt_i
 crt_status crt_entity_thickness_with(crt_entity* entity, const crt_measure_options* options,
                                      crt_interval* least, double from[3], double to[3]) {
   return guarded_with_cancel([&](const CancelValue& cancel_value) {
-    give_thickness(entity, to_options(options, cancel_value, crt::WallOptions().measure.relative_width),
+    give_thickness(entity,
+                   to_options(options, cancel_value, crt::WallOptions().measure.relative_width),
                    least, from, to);
   });
 }

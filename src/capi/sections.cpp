@@ -58,9 +58,8 @@ crt_status crt_section_create_with(crt_entity* entity, const double normal[3], d
     require(normal, "normal");
     require(out, "out");
     Reference<crt_section> section(new crt_section);
-    section->value =
-        crt::section(entity->value, {normal[0], normal[1], normal[2]}, offset, deviation,
-                     to_options(options, cancel_value));
+    section->value = crt::section(entity->value, {normal[0], normal[1], normal[2]}, offset,
+                                  deviation, to_options(options, cancel_value));
     list_points(*section, deviation);
     *out = section.release();
   });

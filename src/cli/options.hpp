@@ -175,6 +175,7 @@ struct ExportRequest : CommonRequest {
   std::optional<SourceLanguage> language;  ///< without it the ending of the output says it
   std::optional<int> entity;               ///< writes this one alone
   std::optional<double> deviation;         ///< of triangles, in scene units
+  std::optional<double> seconds;           ///< that the triangles of each entity may take
 };
 
 struct FormatRequest : CommonRequest {

@@ -67,8 +67,7 @@ auto measured(const Arguments& arguments, std::string_view name, const Measure& 
     if (!entity) continue;
     const std::uint64_t parts =
         std::min(entity->primitive_count(), arguments.context.limits.entities);
-    arguments.context.spend(arguments.call,
-                            static_cast<std::size_t>(StepsPerLook::volume * parts));
+    arguments.context.spend(arguments.call, static_cast<std::size_t>(StepsPerLook::volume * parts));
   }
   try {
     return measure();
@@ -160,8 +159,7 @@ Value contains_point(const Arguments& arguments) {
 
 /// Computes distance(e, p) or distance(a, b), either with a relative width behind.
 Value distance_of(const Arguments& arguments) {
-  MeasureOptions options =
-      options_of(arguments, 2, default_width_of_slow, StepsPerLook::distance);
+  MeasureOptions options = options_of(arguments, 2, default_width_of_slow, StepsPerLook::distance);
   const double enough = options.relative_width;
   const Entity& entity = given_entity(arguments);
   const auto* other = std::get_if<Entity>(&arguments[1]);
@@ -219,9 +217,8 @@ Value thickness_between(const Arguments& arguments) {
     sum.upper += on_way(piece.to.upper) - on_way(piece.from.lower);
   }
   if (sum.width() > 2 * options.relative_width * length) {
-    fail(arguments.span(1),
-         "thickness: it is between {} and {}, as the way goes along the surface", sum.lower,
-         sum.upper);
+    fail(arguments.span(1), "thickness: it is between {} and {}, as the way goes along the surface",
+         sum.lower, sum.upper);
   }
   return sum.middle();
 }

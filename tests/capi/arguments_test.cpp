@@ -190,9 +190,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"least",
        [&] { return crt_entity_thickness_with(ball.get(), &how, nullptr, corner, corner); }},
       {"options",
-       [&] {
-         return crt_entity_thickness_with(ball.get(), &unset, &mass.volume, corner, corner);
-       }},
+       [&] { return crt_entity_thickness_with(ball.get(), &unset, &mass.volume, corner, corner); }},
       {"entity", [&] { return crt_entity_tessellate_with(nullptr, 1, &how, &surface); }},
       {"out", [&] { return crt_entity_tessellate_with(ball.get(), 1, &how, nullptr); }},
       {"options", [&] { return crt_entity_tessellate_with(ball.get(), 1, &unset, &surface); }},
@@ -200,8 +198,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"normal",
        [&] { return crt_section_create_with(ball.get(), nullptr, 0, 1, &how, &section); }},
       {"out", [&] { return crt_section_create_with(ball.get(), o, 0, 1, &how, nullptr); }},
-      {"options",
-       [&] { return crt_section_create_with(ball.get(), o, 0, 1, &unset, &section); }},
+      {"options", [&] { return crt_section_create_with(ball.get(), o, 0, 1, &unset, &section); }},
       {"entities", [&] { return crt_interference(nullptr, 1, 1, 0, nullptr, 0, &count); }},
       {"entities[0]", [&] { return crt_interference(nothing, 1, 1, 0, nullptr, 0, &count); }},
       {"overlaps", [&] { return crt_interference(nullptr, 0, 1, 0, nullptr, 1, &count); }},

@@ -495,8 +495,7 @@ TEST_CASE("a callback cancels searches, and its number is kept") {
   };
   is_cancelled(crt_section_create_with(part.get(), up, 0.3, 1e-6, &how, &section));
   is_cancelled(crt_entity_tessellate_with(part.get(), 1e-3, &how, &surface));
-  is_cancelled(
-      crt_entity_clearance_with(part.get(), ball.get(), &how, &found, place, place));
+  is_cancelled(crt_entity_clearance_with(part.get(), ball.get(), &how, &found, place, place));
   is_cancelled(crt_entity_thickness_with(part.get(), &how, &found, place, place));
   is_cancelled(crt_entity_distance_with(part.get(), &how, up, 0, 1, place, nullptr, 0));
   CHECK(section == nullptr);

@@ -81,8 +81,7 @@ TEST_CASE("distance() of two solids is that between them, and 0 where they touch
   CHECK(printed("distance(plate, plate <translate vec3(4, 0, 0)>)") == "0");
   CHECK(printed("distance(plate, plate <translate vec3(1, 1, 0)>)") == "0");
   // Between a shaft and its bore all places are about equally near.
-  const std::string pin =
-      "Cylinder { from -> vec3(1, 1, -1) to -> vec3(1, 1, 2) radius -> 0.4 }";
+  const std::string pin = "Cylinder { from -> vec3(1, 1, -1) to -> vec3(1, 1, 2) radius -> 0.4 }";
   CHECK(contains(complaint("distance(plate, " + pin + ")"), "more than"));
 }
 
@@ -148,9 +147,9 @@ TEST_CASE("a search in a script ends by its steps, at the place of the call") {
   const std::string ring =
       "ring = Torus { center -> vec3(0, 0, 0) axis -> vec3(1, 2, 3) radius -> 2 "
       "thickness -> 0.5 }\n";
-  for (const std::string question : {"area(ring, 1e-9)", "centroid(ring, 1e-9)",
-                                     "distance(ring, vec3(0, 0, 0), 1e-9)", "thickness(ring)",
-                                     "distance(ring, ring <scale 0.5>, 1e-9)"}) {
+  for (const std::string question :
+       {"area(ring, 1e-9)", "centroid(ring, 1e-9)", "distance(ring, vec3(0, 0, 0), 1e-9)",
+        "thickness(ring)", "distance(ring, ring <scale 0.5>, 1e-9)"}) {
     CAPTURE(question);
     const auto run = run_statements(ring + "x = " + question + "\n", options);
     REQUIRE(!run.result.diagnostics.empty());
