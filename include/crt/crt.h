@@ -305,6 +305,8 @@ typedef struct crt_material {
   /** Is the radiance that the surface gives off, linear RGB, each in [0, 1e30]; default 0. Since
    * 1.1. */
   double emission[3];
+  double density; /**< kg per cubic metre, for masses (crt_entity_density()), >= 0; default 0, which
+                     says nothing of it. Since 1.1. */
 } crt_material;
 
 /** Describes what a surface is made of, in the words of glTF, OpenPBR and Blender: a mixture of a
@@ -333,6 +335,7 @@ typedef struct crt_principled {
    * of the surface. Pictures count as they are, without the gamma of displays. Default NULL. */
   const crt_pattern* normal_map;
   double bump_height; /**< scene units; default 0.1 */
+  double density;     /**< kg per cubic metre, for masses, >= 0; default 0: nothing is said of it */
 } crt_principled;
 
 /** Lists the kinds of lights. All cast shadows. */
@@ -410,6 +413,11 @@ typedef struct crt_camera {
   /** Is the radius of the lens in scene units, instead of `aperture`: one of the two must be 0.
    * Default 0. Since 1.1. */
   double lens_radius;
+  /** Cuts solids open if it is not 0: only what is against this normal of the plane {p : normal . p
+   * = offset |normal|} is there, and cuts are hatched. Default 0. Since 1.1, as what follows. */
+  double section_normal[3];
+  double section_offset; /**< of the plane, in scene units; default 0 */
+  double section_hatch;  /**< distance of hatching lines, >= 0; default 0: by the size of the cut */
 } crt_camera;
 
 /** Lists the kinds of backgrounds. */
@@ -1163,6 +1171,12 @@ CRT_API crt_status crt_mass_init(crt_mass* mass, size_t struct_size);
  */
 CRT_API crt_status crt_entity_mass(crt_entity* entity, double relative_width, double seconds,
                                    crt_mass* out);
+/**
+ * Gives the density of a solid that its materials say, in kg per cubic metre: 0 if they say none.
+ * Of a difference and of an intersection the first part counts alone. Fails with
+ * CRT_ERROR_INVALID_ARGUMENT if parts of it have different densities. Since 1.1.
+ */
+CRT_API crt_status crt_entity_density(crt_entity* entity, double* out);
 /** Finds the volume of a solid, in cubed scene units. Since 1.1. */
 CRT_API crt_status crt_entity_volume(crt_entity* entity, double relative_width, double seconds,
                                      crt_interval* out);

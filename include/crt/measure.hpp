@@ -64,6 +64,12 @@ struct MassProperties {
   std::array<Interval, 6> inertia{};
 };
 
+/// Returns the density of a solid that its materials say, in kg per cubic metre: 0 if they say
+/// none. Of a difference and of an intersection the first part counts alone. Materials of single
+/// triangles do not count. Throws Error (invalid_argument) if parts have different densities, of
+/// which one may be unknown: where they overlap, nothing says which one it is.
+double density(const Entity& entity);
+
 /// Returns the volume of a solid, in cubed scene units. Parts that overlap count once.
 Interval volume(const Entity& entity, const MeasureOptions& options = {});
 

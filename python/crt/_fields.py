@@ -62,6 +62,11 @@ FIELDS = {
             "Is the radiance that the surface gives off, linear RGB, each in [0, 1e30]; default"
             " 0. Since 1.1.",
         ),
+        (
+            "double density",
+            "kg per cubic metre, for masses (crt_entity_density()), >= 0; default 0, which says"
+            " nothing of it. Since 1.1.",
+        ),
     ),
     "crt_principled": (
         ("int32_t reserved", "0"),
@@ -100,6 +105,10 @@ FIELDS = {
             "displays. Default None.",
         ),
         ("double bump_height", "scene units; default 0.1"),
+        (
+            "double density",
+            "kg per cubic metre, for masses, >= 0; default 0: nothing is said of it",
+        ),
     ),
     "crt_light": (
         ("int32_t type", "a LightType; default LightType.POINT"),
@@ -155,6 +164,17 @@ FIELDS = {
             "double lens_radius",
             "Is the radius of the lens in scene units, instead of `aperture`: one of the two "
             "must be 0. Default 0. Since 1.1.",
+        ),
+        (
+            "double section_normal[3]",
+            "Cuts solids open if it is not 0: only what is against this normal of the plane {p "
+            ": normal . p = offset |normal|} is there, and cuts are hatched. Default 0. Since "
+            "1.1, as what follows.",
+        ),
+        ("double section_offset", "of the plane, in scene units; default 0"),
+        (
+            "double section_hatch",
+            "distance of hatching lines, >= 0; default 0: by the size of the cut",
         ),
     ),
     "crt_background": (

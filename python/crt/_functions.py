@@ -365,6 +365,7 @@ FUNCTIONS = {
         "double seconds",
         "crt_mass* out",
     ),
+    "crt_entity_density": ("crt_status", "crt_entity* entity", "double* out"),
     "crt_entity_volume": (
         "crt_status",
         "crt_entity* entity",

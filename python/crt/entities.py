@@ -164,6 +164,15 @@ class Entity(Handle):
         library.crt_entity_bounds(self._handle, low.ctypes.data, high.ctypes.data)
         return low, high
 
+    @property
+    def density(self) -> float | None:
+        """Returns the density that its materials say, in kg per cubic metre, or None if they say
+        none. It is an error if parts have different ones. Of a difference and of an intersection
+        the first part counts alone."""
+        found = ctypes.c_double()
+        library.crt_entity_density(self._handle, ctypes.byref(found))
+        return found.value or None
+
     def volume(
         self, relative_width: SupportsFloat = 1e-6, seconds: SupportsFloat | None = None
     ) -> Interval:

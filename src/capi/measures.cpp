@@ -172,6 +172,14 @@ crt_status crt_entity_mass(crt_entity* entity, double relative_width, double sec
   });
 }
 
+crt_status crt_entity_density(crt_entity* entity, double* out) {
+  return guarded([&] {
+    require(entity, "entity");
+    require(out, "out");
+    *out = crt::density(entity->value);
+  });
+}
+
 crt_status crt_entity_volume(crt_entity* entity, double relative_width, double seconds,
                              crt_interval* out) {
   return give_interval(crt::volume, entity, relative_width, seconds, out);

@@ -172,6 +172,8 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"from", [&] { return crt_entity_thickness(ball.get(), 1, &mass.volume, nullptr, corner); }},
       {"to", [&] { return crt_entity_thickness(ball.get(), 1, &mass.volume, corner, nullptr); }},
       {"the struct", [&] { return crt_measure_options_init(nullptr, sizeof how); }},
+      {"entity", [&] { return crt_entity_density(nullptr, corner); }},
+      {"out", [&] { return crt_entity_density(ball.get(), nullptr); }},
       {"entity", [&] { return crt_entity_centroid(nullptr, 1, 0, mass.centroid); }},
       {"out", [&] { return crt_entity_centroid(ball.get(), 1, 0, nullptr); }},
       {"entity",

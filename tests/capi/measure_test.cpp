@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "measured_parts.hpp"
 #include "support.hpp"
 
 using namespace crt::test;
@@ -14,20 +15,6 @@ using namespace crt::test;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-bool holds(const crt_interval& interval, double truth) {
-  return interval.lower <= truth && truth <= interval.upper;
-}
-
-/// Makes half of a torus about the y axis: what is in front of x = 0.
-EntityHandle half_torus() {
-  const Numbers center = {0, 0, 0};
-  const Numbers axis = {0, 1, 0};
-  const EntityHandle whole = made<EntityHandle>(
-      [&](crt_entity** out) { return crt_torus_create(center.data(), axis.data(), 2, 0.5, out); });
-  const EntityHandle back = box({-5, -5, -5}, {0, 5, 5});
-  return difference(whole.get(), back.get());
-}
 
 crt_mass mass_of(crt_entity* entity, double relative_width) {
   crt_mass mass;
@@ -397,107 +384,4 @@ TEST_CASE("the thinnest wall of a plate is the plate's, with a chord across it")
   CHECK(to[0] == doctest::Approx(from[0]));
   CHECK(crt_entity_thickness(plate.get(), 0, &least, from, to) == CRT_ERROR_INVALID_ARGUMENT);
   CHECK(says("relative_width"));
-}
-
-TEST_CASE("the centroid is that of the mass properties") {
-  const EntityHandle plate = box({0, 0, 0}, {5, 0.5, 4});
-  crt_interval centroid[3];
-  REQUIRE(crt_entity_centroid(plate.get(), 1e-6, 0, centroid) == CRT_OK);
-  const double middle[3] = {2.5, 0.25, 2};
-  for (int axis = 0; axis < 3; ++axis) {
-    CHECK(holds(centroid[axis], middle[axis]));
-    CHECK(centroid[axis].upper - centroid[axis].lower <= 2.5e-6);
-  }
-}
-
-namespace {
-
-/// Counts how often it is asked, and says no from a number on.
-struct Asked {
-  int count = 0;
-  int last = 0;
-};
-
-int ask(void* user) {
-  auto* const asked = static_cast<Asked*>(user);
-  return ++asked->count >= asked->last ? 42 : 0;
-}
-
-}  // namespace
-
-TEST_CASE("searches end when their time is over, with what is known then") {
-  const EntityHandle part = half_torus();
-  crt_measure_options how;
-  crt_measure_options_init(&how, sizeof how);
-  how.seconds = 1e-9;
-  const double up[3] = {0, 1, 0};
-  crt_section* section = nullptr;
-  REQUIRE(crt_section_create_with(part.get(), up, 0.3, 1e-6, &how, &section) == CRT_OK);
-  double deviation = 0;
-  CHECK(crt_section_deviation(section, &deviation) == CRT_OK);
-  CHECK(deviation > 1e-6);
-  crt_section_release(section);
-  crt_surface_mesh* surface = nullptr;
-  REQUIRE(crt_entity_tessellate_with(part.get(), 1e-3, &how, &surface) == CRT_OK);
-  CHECK(std::isinf(crt_surface_mesh_deviation(surface)));
-  crt_surface_mesh_release(surface);
-  const EntityHandle ball = sphere({0, 9, 0}, 1);
-  crt_interval found;
-  double place[3];
-  REQUIRE(crt_entity_clearance_with(part.get(), ball.get(), &how, &found, place, place) == CRT_OK);
-  CHECK(found.upper - found.lower > 1e-2);
-  REQUIRE(crt_entity_thickness_with(part.get(), &how, &found, place, place) == CRT_OK);
-  CHECK(found.lower < 0.4);
-}
-
-TEST_CASE("options without a time or a width are those of the plain functions") {
-  const EntityHandle part = half_torus();
-  crt_measure_options how;
-  crt_measure_options_init(&how, sizeof how);
-  how.threads = 1;
-  const double point[3] = {9, 1, 2};
-  double distance = 0;
-  double plain = 1;
-  REQUIRE(crt_entity_distance(part.get(), point, 0, 1, &plain, nullptr, 0) == CRT_OK);
-  REQUIRE(crt_entity_distance_with(part.get(), &how, point, 0, 1, &distance, nullptr, 0) == CRT_OK);
-  CHECK(distance == plain);
-  how.relative_width = 0.1;
-  REQUIRE(crt_entity_distance_with(part.get(), &how, point, 0, 1, &distance, nullptr, 0) == CRT_OK);
-  CHECK(distance >= plain);
-  const EntityHandle plate = box({0, 0, 0}, {5, 0.5, 4});
-  crt_interval of_options;
-  crt_interval least;
-  double place[3];
-  REQUIRE(crt_entity_thickness(plate.get(), 0.01, &least, place, place) == CRT_OK);
-  REQUIRE(crt_entity_thickness_with(plate.get(), nullptr, &of_options, place, place) == CRT_OK);
-  CHECK(of_options.lower == least.lower);
-  CHECK(of_options.upper == least.upper);
-}
-
-TEST_CASE("a callback cancels searches, and its number is kept") {
-  const EntityHandle part = half_torus();
-  const EntityHandle ball = sphere({0, 9, 0}, 1);
-  Asked asked;
-  crt_measure_options how;
-  crt_measure_options_init(&how, sizeof how);
-  how.poll = ask;
-  how.poll_user = &asked;
-  const double up[3] = {0, 1, 0};
-  crt_section* section = nullptr;
-  crt_surface_mesh* surface = nullptr;
-  crt_interval found;
-  double place[3];
-  const auto is_cancelled = [&](crt_status status) {
-    CHECK(status == CRT_ERROR_CANCELLED);
-    CHECK(crt_cancel_value() == 42);
-    CHECK(asked.count > 0);
-    asked = {};
-  };
-  is_cancelled(crt_section_create_with(part.get(), up, 0.3, 1e-6, &how, &section));
-  is_cancelled(crt_entity_tessellate_with(part.get(), 1e-3, &how, &surface));
-  is_cancelled(crt_entity_clearance_with(part.get(), ball.get(), &how, &found, place, place));
-  is_cancelled(crt_entity_thickness_with(part.get(), &how, &found, place, place));
-  is_cancelled(crt_entity_distance_with(part.get(), &how, up, 0, 1, place, nullptr, 0));
-  CHECK(section == nullptr);
-  CHECK(surface == nullptr);
 }

@@ -176,7 +176,7 @@ TEST_CASE("nothing is at no distance from anything") {
   CHECK_THROWS_AS(nearest_point(Disc{}, {0, 0, 0}), Error);
 }
 
-TEST_CASE("the work of distances, walls and lines is told, the same for any number of threads") {
+TEST_CASE("what a distance, a wall or a line takes is counted, for any number of threads alike") {
   const Entity plate = Entity(Box{.corner_a = {0, 0, 0}, .corner_b = {4, 2, 1}}) -
                        Entity(Cylinder{.from = {1, 1, -1}, .to = {1, 1, 2}, .radius = 0.5});
   const Entity ball = Sphere{.center = {8, 1, 0.5}, .radius = 1};

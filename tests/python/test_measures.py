@@ -58,6 +58,16 @@ class Measures(unittest.TestCase):
         np.testing.assert_allclose(mass.center, (1, 2, 3), atol=1e-3)
         np.testing.assert_allclose(mass.inertia_tensor, 1.6 * volume * np.eye(3), atol=1e-1)
 
+    def test_a_solid_has_the_density_of_its_material(self):
+        self.assertIsNone(PLATE.density)
+        steel = crt.Material(density=7850)
+        self.assertEqual(PLATE.with_material(steel).density, 7850)
+        resin = crt.PrincipledMaterial(density=1150)
+        ball = crt.Sphere((9, 0, 0), 1, material=resin)
+        self.assertEqual(ball.density, 1150)
+        with self.assertRaisesRegex(crt.Error, "different densities"):
+            (ball + PLATE.with_material(steel)).density
+
     def test_the_centroid_is_that_of_the_mass(self):
         centroid = PLATE.centroid(1e-4)
         for number, place in zip(centroid, ((16 - math.pi / 4) / VOLUME, 1, 0.5)):
