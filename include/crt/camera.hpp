@@ -50,7 +50,21 @@ struct Camera {
   /// rays start in the plane through `position`.
   double focal_distance = 1;
   ApertureShape aperture_shape = ApertureShape::circle;
+  /// Cuts the scene open if it is not 0: of solids, only what is against this normal of the plane
+  /// {p : section_normal . p = section_offset |section_normal|} is there. Cuts are hatched, as
+  /// sectioned() says.
+  Vec3 section_normal{0, 0, 0};
+  /// This is how far the plane is from the origin along the normal, in scene units.
+  double section_offset = 0;
+  /// This is the distance of hatching lines in scene units (>= 0). 0 is a 40th of the longest side
+  /// of the box around what is cut.
+  double section_hatch = 0;
 };
+
+/// Says whether the camera cuts the scene open.
+inline bool has_section(const Camera& camera) {
+  return camera.section_normal != Vec3(0, 0, 0);
+}
 
 /// Says whether the camera has a lens of any size. It takes Settings::dof_samples to show.
 inline bool has_lens(const Camera& camera) {

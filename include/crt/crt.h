@@ -125,6 +125,12 @@ CRT_API const char* crt_status_string(crt_status status);
  */
 CRT_API int32_t crt_cancel_value(void);
 
+/**
+ * Is called now and then while something takes long (for a script every few thousand steps). A
+ * return value other than 0 cancels it.
+ */
+typedef int (*crt_poll_fn)(void* user);
+
 /** @} */
 
 /* ---- handles -------------------------------------------------------------------------------- */
@@ -299,6 +305,8 @@ typedef struct crt_material {
   /** Is the radiance that the surface gives off, linear RGB, each in [0, 1e30]; default 0. Since
    * 1.1. */
   double emission[3];
+  double density; /**< kg per cubic metre, for masses (crt_entity_density()), >= 0; default 0, which
+                     says nothing of it. Since 1.1. */
 } crt_material;
 
 /** Describes what a surface is made of, in the words of glTF, OpenPBR and Blender: a mixture of a
@@ -327,6 +335,7 @@ typedef struct crt_principled {
    * of the surface. Pictures count as they are, without the gamma of displays. Default NULL. */
   const crt_pattern* normal_map;
   double bump_height; /**< scene units; default 0.1 */
+  double density;     /**< kg per cubic metre, for masses, >= 0; default 0: nothing is said of it */
 } crt_principled;
 
 /** Lists the kinds of lights. All cast shadows. */
@@ -404,6 +413,11 @@ typedef struct crt_camera {
   /** Is the radius of the lens in scene units, instead of `aperture`: one of the two must be 0.
    * Default 0. Since 1.1. */
   double lens_radius;
+  /** Cuts solids open if it is not 0: only what is against this normal of the plane {p : normal . p
+   * = offset |normal|} is there, and cuts are hatched. Default 0. Since 1.1, as what follows. */
+  double section_normal[3];
+  double section_offset; /**< of the plane, in scene units; default 0 */
+  double section_hatch;  /**< distance of hatching lines, >= 0; default 0: by the size of the cut */
 } crt_camera;
 
 /** Lists the kinds of backgrounds. */
@@ -1117,6 +1131,24 @@ typedef struct crt_interval {
   double upper;
 } crt_interval;
 
+/**
+ * Says how well something is to be known, and what may end the search for it. All 0 is the default.
+ * Since 1.1.
+ */
+typedef struct crt_measure_options {
+  uint32_t struct_size;
+  int32_t threads;       /**< as in crt_render_options; 0 means all */
+  double relative_width; /**< above 0 and at most 1; 0 means what each function says */
+  double seconds;        /**< ends the search with what is known then; 0 or INFINITY: no such end */
+  /** NULL, or a callback that may cancel: the call then ends with CRT_ERROR_CANCELLED. Any of the
+   * threads that work may call it, one at a time. */
+  crt_poll_fn poll;
+  void* poll_user;
+} crt_measure_options;
+
+/** Fills in the defaults, which are all 0. Since 1.1. */
+CRT_API crt_status crt_measure_options_init(crt_measure_options* options, size_t struct_size);
+
 /** Has the mass properties of a solid of density 1, in scene units. Since 1.1. */
 typedef struct crt_mass {
   uint32_t struct_size;
@@ -1139,12 +1171,24 @@ CRT_API crt_status crt_mass_init(crt_mass* mass, size_t struct_size);
  */
 CRT_API crt_status crt_entity_mass(crt_entity* entity, double relative_width, double seconds,
                                    crt_mass* out);
+/**
+ * Gives the density of a solid that its materials say, in kg per cubic metre: 0 if they say none.
+ * Of a difference and of an intersection the first part counts alone. Fails with
+ * CRT_ERROR_INVALID_ARGUMENT if parts of it have different densities. Since 1.1.
+ */
+CRT_API crt_status crt_entity_density(crt_entity* entity, double* out);
 /** Finds the volume of a solid, in cubed scene units. Since 1.1. */
 CRT_API crt_status crt_entity_volume(crt_entity* entity, double relative_width, double seconds,
                                      crt_interval* out);
 /** Finds the area of the surface of a solid, in squared scene units. Since 1.1. */
 CRT_API crt_status crt_entity_area(crt_entity* entity, double relative_width, double seconds,
                                    crt_interval* out);
+/**
+ * Finds the centroid of a solid, which takes less long than all mass properties. Its widths are
+ * relative to half of the longest side of the box around the solid. Since 1.1.
+ */
+CRT_API crt_status crt_entity_centroid(crt_entity* entity, double relative_width, double seconds,
+                                       crt_interval out[3]);
 /**
  * Gives a box that holds the entity. Each side of it is within 1e-6 times half of the longest side
  * of the box around its parts of where the smallest box has it. What no equations bound, such as
@@ -1182,6 +1226,15 @@ CRT_API crt_status crt_entity_distance(crt_entity* entity, const double* points,
                                        size_t count, double* signed_distance, double* nearest,
                                        size_t nearest_stride);
 /**
+ * Finds nearest points as crt_entity_distance() does, by options: NULL, or a relative width of 0,
+ * stands for those of that function. Where time ends the search, distances are those of the nearest
+ * points until then. Since 1.1.
+ */
+CRT_API crt_status crt_entity_distance_with(crt_entity* entity, const crt_measure_options* options,
+                                            const double* points, size_t stride, size_t count,
+                                            double* signed_distance, double* nearest,
+                                            size_t nearest_stride);
+/**
  * Finds how near two solids are, and a pair of points so far apart. For solids that overlap, which
  * have inner points in common, both ends of the distance are 0, and both points are such a point.
  * For those that touch, the lower end alone is 0. Between surfaces that are equally near over a
@@ -1192,6 +1245,14 @@ CRT_API crt_status crt_entity_distance(crt_entity* entity, const double* points,
  */
 CRT_API crt_status crt_entity_clearance(crt_entity* a, crt_entity* b, double relative_width,
                                         crt_interval* distance, double on_a[3], double on_b[3]);
+/**
+ * Finds how near two solids are as crt_entity_clearance() does, by options. The usual relative
+ * width is 1e-6. Since 1.1.
+ */
+CRT_API crt_status crt_entity_clearance_with(crt_entity* a, crt_entity* b,
+                                             const crt_measure_options* options,
+                                             crt_interval* distance, double on_a[3],
+                                             double on_b[3]);
 /**
  * Finds how thin the thinnest wall of a solid is: the shortest chord in it that is normal to the
  * surface at one end and within 5 degrees of a normal at the other. So the edge of a box is no
@@ -1205,6 +1266,12 @@ CRT_API crt_status crt_entity_clearance(crt_entity* a, crt_entity* b, double rel
  */
 CRT_API crt_status crt_entity_thickness(crt_entity* entity, double relative_width,
                                         crt_interval* least, double from[3], double to[3]);
+/**
+ * Finds the thinnest wall as crt_entity_thickness() does, by options. The usual relative width is
+ * 0.01. Since 1.1.
+ */
+CRT_API crt_status crt_entity_thickness_with(crt_entity* entity, const crt_measure_options* options,
+                                             crt_interval* least, double from[3], double to[3]);
 
 /** Says how much two entities have in common. The layout is fixed for ever: 32 bytes. Since 1.1. */
 typedef struct crt_overlap {
@@ -1258,6 +1325,14 @@ CRT_API crt_status crt_interference(crt_entity* const* entities, size_t entity_c
  */
 CRT_API crt_status crt_section_create(crt_entity* entity, const double normal[3], double offset,
                                       double deviation, crt_section** out);
+/**
+ * Cuts a solid as crt_section_create() does, by options. Where time ends the search, the deviation
+ * says how well the contours are known. Since 1.1.
+ * @param options  NULL, or how; the relative width is that of the area, 1e-6 if it is 0
+ */
+CRT_API crt_status crt_section_create_with(crt_entity* entity, const double normal[3],
+                                           double offset, double deviation,
+                                           const crt_measure_options* options, crt_section** out);
 /** Gives the area of a section, to 1e-6 of itself where that can be known. Since 1.1. */
 CRT_API crt_status crt_section_area(const crt_section* section, crt_interval* out);
 /**
@@ -1331,6 +1406,14 @@ CRT_API crt_status crt_section_write_with(const crt_section* section, const char
  */
 CRT_API crt_status crt_entity_tessellate(crt_entity* entity, double deviation,
                                          crt_surface_mesh** out);
+/**
+ * Makes a mesh as crt_entity_tessellate() does, by options. Where time ends the search, the mesh is
+ * as good as it is then, and its deviation INFINITY. Since 1.1.
+ * @param options  NULL, or how; the relative width is not used
+ */
+CRT_API crt_status crt_entity_tessellate_with(crt_entity* entity, double deviation,
+                                              const crt_measure_options* options,
+                                              crt_surface_mesh** out);
 /**
  * Returns the corners, 3 numbers each, which the mesh lends; NULL for NULL. Since 1.1.
  * @param vertex_count  gets how many there are; may be NULL
@@ -1437,12 +1520,6 @@ CRT_API crt_status crt_scene_save_script(crt_scene* scene, const char* path);
  * precision) costs next to nothing, and a few other entities little.
  */
 CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
-
-/**
- * Is called now and then while something takes long (for a script every few thousand steps). A
- * return value other than 0 cancels it.
- */
-typedef int (*crt_poll_fn)(void* user);
 
 /** Says what preparing may be asked beyond the scene. All 0 is the default. */
 typedef struct crt_prepare_options {

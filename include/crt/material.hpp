@@ -42,6 +42,9 @@ struct Material {
   double bump_height = 0.1;
   /// This is the radiance that the surface gives off, >= 0. It is a light for others, too.
   Color emission = {0, 0, 0};
+  /// This is the density of what it is, in kg per cubic metre, for masses: see density(). Pictures
+  /// do not need it. 0 says nothing of it.
+  double density = 0;
 };
 
 /// A SharedMaterial is a material that many entities share: an immutable handle, cheap to copy. Any

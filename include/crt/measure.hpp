@@ -64,12 +64,23 @@ struct MassProperties {
   std::array<Interval, 6> inertia{};
 };
 
+/// Returns the density of a solid that its materials say, in kg per cubic metre: 0 if they say
+/// none. Of a difference and of an intersection the first part counts alone. Materials of single
+/// triangles do not count. Throws Error (invalid_argument) if parts have different densities, of
+/// which one may be unknown: where they overlap, nothing says which one it is.
+double density(const Entity& entity);
+
 /// Returns the volume of a solid, in cubed scene units. Parts that overlap count once.
 Interval volume(const Entity& entity, const MeasureOptions& options = {});
 
 /// Returns the area of a solid's surface, in squared scene units, without what is within the solid.
 /// The upper end is infinite while a place of the surface is so narrow that nothing bounds it.
 Interval surface_area(const Entity& entity, const MeasureOptions& options = {});
+
+/// Returns the centroid of a solid, each coordinate to a width relative to half of the longest side
+/// of the box around it. It takes less long than all mass properties. What is known of a solid
+/// without a volume is everything.
+std::array<Interval, 3> centroid(const Entity& entity, const MeasureOptions& options = {});
 
 /// Returns all mass properties of a solid. It takes some times as long as the volume alone.
 MassProperties mass_properties(const Entity& entity, const MeasureOptions& options = {});
@@ -103,6 +114,13 @@ BoundingBox tight_bounding_box(const Entity& entity, const MeasureOptions& optio
 struct NearestPoint {
   Interval distance;    ///< below 0 for a point in the solid
   Vec3 point{0, 0, 0};  ///< of the surface, as far away as the interval says, to its width
+
+  /// Returns how far away that point is, which is never less than the distance: below 0 in the
+  /// solid, and 0 on its surface.
+  double signed_distance() const {
+    if (distance.upper <= 0) return distance.lower;
+    return distance.lower < 0 ? 0 : distance.upper;
+  }
 };
 
 /// Finds the nearest points of a solid's surface. Distances are found to `relative_width` of
@@ -150,10 +168,10 @@ struct LinePiece {
 /// units, and below 0 behind it. They are found to rounding. Where parts of a union touch, the
 /// piece goes on, by identity. A piece or a gap that is no longer than rounding may be left out.
 /// Where the line runs along a surface, or merely touches one, `from` and `to` may hold all of that
-/// stretch. Throws Error (invalid_argument) for an origin that is not finite, and a direction that
-/// is not or that is 0.
+/// stretch. Of the options only `go_on` and `work` count. Throws Error (invalid_argument) for an
+/// origin that is not finite, and a direction that is not or that is 0.
 std::vector<LinePiece> thickness_along(const Entity& entity, const Vec3& origin,
-                                       const Vec3& direction);
+                                       const Vec3& direction, const MeasureOptions& options = {});
 
 /// WallOptions say what a wall is, and how well its thickness is to be known.
 struct WallOptions {

@@ -54,6 +54,9 @@ struct PrincipledMaterial {
   std::optional<Pattern> bump{};
   /// This is the height of the bumps in scene units.
   double bump_height = 0.1;
+  /// This is the density of what it is, in kg per cubic metre, for masses: see density(). 0 says
+  /// nothing of it.
+  double density = 0;
 };
 
 }  // namespace crt

@@ -38,6 +38,7 @@ inline constexpr auto table<Material> = Table{
     field("bump_height", &Material::bump_height, between(-largest_length, largest_length), {},
           "times this, in units of length"),
     field("emission", &Material::emission, brightness, {}, "the light that it gives off"),
+    field("density", &Material::density, factor, {}, "kg in a cubic metre, for masses; 0: unknown"),
 };
 
 template <>
@@ -67,6 +68,8 @@ inline constexpr auto table<PrincipledMaterial> = Table{
           "the surface seems raised by this pattern's brightness"),
     field("bump_height", &PrincipledMaterial::bump_height, between(-largest_length, largest_length),
           {}, "times this, in units of length"),
+    field("density", &PrincipledMaterial::density, factor, {},
+          "kg in a cubic metre, for masses; 0: unknown"),
 };
 
 /// Patterns of two colours have these rows.

@@ -161,6 +161,12 @@ inline constexpr auto table<Camera> = Table{
     field("focal_distance", &Camera::focal_distance, extent, {.always_written = true},
           "how far along the view the sharp plane is, above 0"),
     field("aperture_shape", &Camera::aperture_shape, any, {}, "the shape of the lens, see below"),
+    field("section_normal", &Camera::section_normal, point, {},
+          "cuts solids open by a plane across it, see below"),
+    field("section_offset", &Camera::section_offset, between(-largest_length, largest_length), {},
+          "how far the plane is from the origin, in units of length"),
+    field("section_hatch", &Camera::section_hatch, between(0, largest_length), {},
+          "distance of hatching lines; 0: by the size of what is cut"),
 };
 
 template <>

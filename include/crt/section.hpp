@@ -9,6 +9,7 @@
 #include <array>
 #include <crt/measure.hpp>
 #include <crt/primitives.hpp>
+#include <crt/scene.hpp>
 #include <crt/settings.hpp>
 #include <filesystem>
 #include <string>
@@ -113,5 +114,12 @@ void write_section(const std::filesystem::path& path, const Section& section,
 /// Finds out, before there is a section, whether write_section() knows the ending of a name. Throws
 /// Error (unsupported).
 void check_section_name(const std::filesystem::path& path);
+
+/// Returns a scene that is cut open, as its camera would show it by Camera::section_normal. Solids
+/// keep what is against the normal, and their ids; what is no solid stays as it is. Each cut has
+/// the plain colour of its entity, with lines at 45 degrees that are turned for every other entity
+/// that is cut. `hatch` is their distance, as in Camera. Throws Error (invalid_argument) for a
+/// normal of no length or numbers that are not finite, and as bounding_box() does.
+Scene sectioned(const Scene& scene, const Vec3& normal, double offset, double hatch = 0);
 
 }  // namespace crt

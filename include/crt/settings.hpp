@@ -51,6 +51,21 @@ enum class Unit {
   in,  ///< an inch
 };
 
+/// Returns how many metres a unit is.
+constexpr double metres_of(Unit unit) {
+  switch (unit) {
+    case Unit::m:
+      return 1;
+    case Unit::cm:
+      return 0.01;
+    case Unit::mm:
+      return 0.001;
+    case Unit::in:
+      break;
+  }
+  return 0.0254;
+}
+
 /// This is the one value of Settings::compat beside 0.
 inline constexpr int compat_2015 = 2015;
 

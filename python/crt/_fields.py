@@ -62,6 +62,11 @@ FIELDS = {
             "Is the radiance that the surface gives off, linear RGB, each in [0, 1e30]; default"
             " 0. Since 1.1.",
         ),
+        (
+            "double density",
+            "kg per cubic metre, for masses (crt_entity_density()), >= 0; default 0, which says"
+            " nothing of it. Since 1.1.",
+        ),
     ),
     "crt_principled": (
         ("int32_t reserved", "0"),
@@ -100,6 +105,10 @@ FIELDS = {
             "displays. Default None.",
         ),
         ("double bump_height", "scene units; default 0.1"),
+        (
+            "double density",
+            "kg per cubic metre, for masses, >= 0; default 0: nothing is said of it",
+        ),
     ),
     "crt_light": (
         ("int32_t type", "a LightType; default LightType.POINT"),
@@ -155,6 +164,17 @@ FIELDS = {
             "double lens_radius",
             "Is the radius of the lens in scene units, instead of `aperture`: one of the two "
             "must be 0. Default 0. Since 1.1.",
+        ),
+        (
+            "double section_normal[3]",
+            "Cuts solids open if it is not 0: only what is against this normal of the plane {p "
+            ": normal . p = offset |normal|} is there, and cuts are hatched. Default 0. Since "
+            "1.1, as what follows.",
+        ),
+        ("double section_offset", "of the plane, in scene units; default 0"),
+        (
+            "double section_hatch",
+            "distance of hatching lines, >= 0; default 0: by the size of the cut",
         ),
     ),
     "crt_background": (
@@ -363,6 +383,17 @@ FIELDS = {
             "way.",
         ),
         ("double first_overlap[3]", "a point near the first of these places"),
+    ),
+    "crt_measure_options": (
+        ("int32_t threads", "as in crt_render_options; 0 means all"),
+        ("double relative_width", "above 0 and at most 1; 0 means what each function says"),
+        ("double seconds", "ends the search with what is known then; 0 or INFINITY: no such end"),
+        (
+            "crt_poll_fn poll",
+            "None, or a callback that may cancel: the call then ends with Status.CANCELLED. Any"
+            " of the threads that work may call it, one at a time.",
+        ),
+        ("void* poll_user", ""),
     ),
     "crt_mass": (
         ("uint32_t reserved", "0"),

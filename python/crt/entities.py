@@ -164,6 +164,15 @@ class Entity(Handle):
         library.crt_entity_bounds(self._handle, low.ctypes.data, high.ctypes.data)
         return low, high
 
+    @property
+    def density(self) -> float | None:
+        """Returns the density that its materials say, in kg per cubic metre, or None if they say
+        none. It is an error if parts have different ones. Of a difference and of an intersection
+        the first part counts alone."""
+        found = ctypes.c_double()
+        library.crt_entity_density(self._handle, ctypes.byref(found))
+        return found.value or None
+
     def volume(
         self, relative_width: SupportsFloat = 1e-6, seconds: SupportsFloat | None = None
     ) -> Interval:
@@ -185,44 +194,78 @@ class Entity(Handle):
         some times as long as the volume alone."""
         return measures.mass(self._handle, relative_width, seconds)
 
+    def centroid(
+        self, relative_width: SupportsFloat = 1e-6, seconds: SupportsFloat | None = None
+    ) -> tuple[Interval, Interval, Interval]:
+        """Returns the centroid of the solid, which takes less long than all of mass(). Widths are
+        relative to half of the longest side of the box around it."""
+        return measures.centroid(self._handle, relative_width, seconds)
+
     def section(
-        self, normal: Point, offset: SupportsFloat, deviation: SupportsFloat
+        self,
+        normal: Point,
+        offset: SupportsFloat,
+        deviation: SupportsFloat,
+        seconds: SupportsFloat | None = None,
     ) -> Section:
         """Returns what the plane of all p with normal . p = offset, for a normal of length 1, cuts
-        out of the solid: contours within `deviation` of the true boundary."""
+        out of the solid: contours within `deviation` of the true boundary. What is known after so
+        many seconds has a larger deviation. Ctrl-C ends the search, and comes out of here."""
         direction = _arguments.vector(normal, "section: normal")
         place = _arguments.number(offset, "section: offset")
         within = _arguments.number(deviation, "section: deviation")
-        return Section._adopt(create("crt_section_create", self._handle, direction, place, within))
+        given = (self._handle, direction, place, within)
+        with measures.searching("section", 1e-6, seconds) as options:
+            return Section._adopt(create("crt_section_create_with", *given, options))
 
     def contains(self, points: ArrayLike) -> NDArray[np.int8]:
         """Says of points, in an array of ... x 3 numbers, where they are: 1 inside of the solid, 0
         on its surface, as far as rounding of its equations lets one know, and -1 outside."""
         return measures.sides(self._handle, points_of(points, "contains: points"))
 
-    def distance(self, points: ArrayLike) -> Nearest:
+    def distance(
+        self,
+        points: ArrayLike,
+        relative_width: SupportsFloat = 1e-6,
+        seconds: SupportsFloat | None = None,
+    ) -> Nearest:
         """Returns how far points, in an array of ... x 3 numbers, are from the solid's surface,
         below 0 in it, and its nearest points. No distance is less than the true one. It is at most
-        1e-6 of itself more, unless surfaces are equally near over a wide range, as between a shaft
-        and its bore, or merely touch: there the search ends earlier."""
-        return measures.nearest(self._handle, points_of(points, "distance: points"))
+        `relative_width` of itself more, unless surfaces are equally near over a wide range, as
+        between a shaft and its bore, or merely touch: there the search ends earlier. So it does
+        after so many seconds."""
+        given = points_of(points, "distance: points")
+        return measures.nearest(self._handle, given, relative_width, seconds)
 
-    def clearance(self, other: "Entity", relative_width: SupportsFloat = 1e-6) -> Clearance:
-        """Returns how near this solid and another one are, with a pair of points so far apart."""
+    def clearance(
+        self,
+        other: "Entity",
+        relative_width: SupportsFloat = 1e-6,
+        seconds: SupportsFloat | None = None,
+    ) -> Clearance:
+        """Returns how near this solid and another one are, with a pair of points so far apart, or
+        what is known of that after so many seconds."""
         _arguments.instance(other, Entity, "clearance: other")
-        return measures.clearance(self._handle, other._handle, relative_width)
+        return measures.clearance(self._handle, other._handle, relative_width, seconds)
 
-    def least_wall(self, relative_width: SupportsFloat = 1e-2) -> Thickness:
+    def least_wall(
+        self, relative_width: SupportsFloat = 1e-2, seconds: SupportsFloat | None = None
+    ) -> Thickness:
         """Returns how thin the solid's thinnest wall is: the shortest chord in it that is normal to
         the surface at one end and within 5 degrees of a normal at the other. So the edge of a box
         is no wall. The upper end is the length of a chord that is there. The lower end may be poor
-        where curved walls of one thickness are large, and is 0 if there is an apex."""
-        return measures.least_wall(self._handle, relative_width)
+        where curved walls of one thickness are large, and is 0 if there is an apex. It is what is
+        known after so many seconds."""
+        return measures.least_wall(self._handle, relative_width, seconds)
 
-    def tessellate(self, deviation: SupportsFloat) -> SurfaceMesh:
+    def tessellate(
+        self, deviation: SupportsFloat, seconds: SupportsFloat | None = None
+    ) -> SurfaceMesh:
         """Makes a closed mesh of the solid's surface, which is nowhere farther from it than the
-        deviation, in scene units. Sharp edges of the solid are edges of triangles."""
-        return tessellated(self._handle, deviation)
+        deviation, in scene units. Sharp edges of the solid are edges of triangles. After so many
+        seconds the mesh is as good as it is, and its deviation infinite. Ctrl-C ends the search,
+        and comes out of here."""
+        return tessellated(self._handle, deviation, seconds)
 
     @property
     def primitive_count(self) -> int:

@@ -4,8 +4,10 @@
     print(volume.middle, "within", volume.width)
 """
 
+import contextlib
 import ctypes
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple, SupportsFloat
 
@@ -13,8 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arguments
+from ._callbacks import POLL, Guard
 from ._handles import Reference
 from ._library import library
+from ._structs import Struct, growable
 
 
 class Interval(NamedTuple):
@@ -134,6 +138,26 @@ def _options(
     return width, _arguments.number(seconds, f"{name}: seconds")
 
 
+@growable("crt_measure_options", shown="measures")
+class _MeasureOptions(Struct):
+    """_MeasureOptions say how well something is to be known, and what may end the search."""
+
+
+@contextlib.contextmanager
+def searching(
+    name: str, relative_width: SupportsFloat, seconds: SupportsFloat | None
+) -> Iterator[Any]:
+    """Gives what the functions of C take as options. Ctrl-C ends the search, and comes out of
+    here."""
+    width, end = _options(name, relative_width, seconds)
+    guard = Guard()
+    # In C a width of 0 stands for the usual one.
+    options = _MeasureOptions(relative_width=width or -1.0, seconds=end)
+    options.poll = POLL(lambda _user: guard.call(lambda: None))
+    with guard.raising():
+        yield ctypes.byref(options)
+
+
 def interval(
     name: str, entity: Reference, relative_width: SupportsFloat, seconds: SupportsFloat | None
 ) -> Interval:
@@ -142,6 +166,16 @@ def interval(
     call = getattr(library, f"crt_entity_{name}")
     call(entity, *_options(name, relative_width, seconds), ctypes.byref(found))
     return found.plain()
+
+
+def centroid(
+    entity: Reference, relative_width: SupportsFloat, seconds: SupportsFloat | None
+) -> tuple[Interval, Interval, Interval]:
+    """Returns the centroid of a solid."""
+    found = (_Interval * 3)()
+    library.crt_entity_centroid(entity, *_options("centroid", relative_width, seconds), found)
+    x, y, z = (number.plain() for number in found)
+    return x, y, z
 
 
 def section_area(section: Reference) -> Interval:
@@ -168,32 +202,41 @@ def sides(entity: Reference, points: NDArray[np.float64]) -> NDArray[np.int8]:
     return out
 
 
-def nearest(entity: Reference, points: NDArray[np.float64]) -> Nearest:
+def nearest(
+    entity: Reference,
+    points: NDArray[np.float64],
+    relative_width: SupportsFloat,
+    seconds: SupportsFloat | None,
+) -> Nearest:
     """Returns how far points are from the surface of a solid, and where that is nearest."""
     distance, point = np.empty(points.shape[:-1]), np.empty(points.shape)
-    library.crt_entity_distance(
-        entity, points.ctypes.data, 0, distance.size, distance.ctypes.data, point.ctypes.data, 0
-    )
+    given = (points.ctypes.data, 0, distance.size)
+    with searching("distance", relative_width, seconds) as options:
+        library.crt_entity_distance_with(
+            entity, options, *given, distance.ctypes.data, point.ctypes.data, 0
+        )
     return Nearest(distance, point)
 
 
-def clearance(a: Reference, b: Reference, relative_width: SupportsFloat) -> Clearance:
+def clearance(
+    a: Reference, b: Reference, relative_width: SupportsFloat, seconds: SupportsFloat | None
+) -> Clearance:
     """Returns how near two solids are."""
-    width = _arguments.number(relative_width, "clearance: relative_width")
     distance, on_a, on_b = _Interval(), np.empty(3), np.empty(3)
-    library.crt_entity_clearance(
-        a, b, width, ctypes.byref(distance), on_a.ctypes.data, on_b.ctypes.data
-    )
+    found = (ctypes.byref(distance), on_a.ctypes.data, on_b.ctypes.data)
+    with searching("clearance", relative_width, seconds) as options:
+        library.crt_entity_clearance_with(a, b, options, *found)
     return Clearance(distance.plain(), on_a, on_b)
 
 
-def least_wall(entity: Reference, relative_width: SupportsFloat) -> Thickness:
+def least_wall(
+    entity: Reference, relative_width: SupportsFloat, seconds: SupportsFloat | None
+) -> Thickness:
     """Returns how thin a solid's thinnest wall is."""
-    width = _arguments.number(relative_width, "least_wall: relative_width")
     least, start, end = _Interval(), np.empty(3), np.empty(3)
-    library.crt_entity_thickness(
-        entity, width, ctypes.byref(least), start.ctypes.data, end.ctypes.data
-    )
+    found = (ctypes.byref(least), start.ctypes.data, end.ctypes.data)
+    with searching("least_wall", relative_width, seconds) as options:
+        library.crt_entity_thickness_with(entity, options, *found)
     return Thickness(least.plain(), start, end)
 
 

@@ -12,7 +12,7 @@ from typing import Any, SupportsFloat
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arguments
+from . import _arguments, measures
 from ._handles import Handle, Reference
 from ._library import create, library
 from ._structs import _member
@@ -115,10 +115,13 @@ def write_surface_meshes(
     )
 
 
-def tessellated(entity: Reference, deviation: SupportsFloat) -> SurfaceMesh:
+def tessellated(
+    entity: Reference, deviation: SupportsFloat, seconds: SupportsFloat | None
+) -> SurfaceMesh:
     """Makes a mesh of a solid's surface."""
     distance = _arguments.number(deviation, "tessellate: deviation")
-    return SurfaceMesh._adopt(create("crt_entity_tessellate", entity, distance))
+    with measures.searching("tessellate", 1, seconds) as options:
+        return SurfaceMesh._adopt(create("crt_entity_tessellate_with", entity, distance, options))
 
 
 def _rgba(color: ArrayLike) -> NDArray[np.float64]:

@@ -316,6 +316,8 @@ class Material(_Struct):
     - bump_height (float): scene units; default 0.1
     - emission (Vector): Is the radiance that the surface gives off, linear RGB, each in [0, 1e30];
       default 0. Since 1.1.
+    - density (float): kg per cubic metre, for masses (crt_entity_density()), >= 0; default 0, which
+      says nothing of it. Since 1.1.
     """
     color: Vector
     alpha: float
@@ -330,6 +332,7 @@ class Material(_Struct):
     bump: Pattern | None
     bump_height: float
     emission: Vector
+    density: float
     def __init__(
         self,
         *,
@@ -346,6 +349,7 @@ class Material(_Struct):
         bump: Pattern | None = ...,
         bump_height: SupportsFloat = ...,
         emission: GivenVector = ...,
+        density: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
@@ -363,6 +367,7 @@ class Material(_Struct):
         bump: Pattern | None = ...,
         bump_height: SupportsFloat = ...,
         emission: GivenVector = ...,
+        density: SupportsFloat = ...,
     ) -> None: ...
 
 class PrincipledMaterial(_Struct):
@@ -390,6 +395,7 @@ class PrincipledMaterial(_Struct):
       along u, green along v, blue out of the surface. Pictures count as they are, without the gamma
       of displays. Default None.
     - bump_height (float): scene units; default 0.1
+    - density (float): kg per cubic metre, for masses, >= 0; default 0: nothing is said of it
     """
     color: Vector
     pattern: Pattern | None
@@ -408,6 +414,7 @@ class PrincipledMaterial(_Struct):
     bump: Pattern | None
     normal_map: Pattern | None
     bump_height: float
+    density: float
     def __init__(
         self,
         *,
@@ -428,6 +435,7 @@ class PrincipledMaterial(_Struct):
         bump: Pattern | None = ...,
         normal_map: Pattern | None = ...,
         bump_height: SupportsFloat = ...,
+        density: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
@@ -449,6 +457,7 @@ class PrincipledMaterial(_Struct):
         bump: Pattern | None = ...,
         normal_map: Pattern | None = ...,
         bump_height: SupportsFloat = ...,
+        density: SupportsFloat = ...,
     ) -> None: ...
 
 LightTypeName = Literal[
@@ -739,6 +748,11 @@ class Camera(_Struct):
     - aperture_shape (ApertureShape, or its name): a ApertureShape; default ApertureShape.CIRCLE
     - lens_radius (float): Is the radius of the lens in scene units, instead of `aperture`: one of
       the two must be 0. Default 0. Since 1.1.
+    - section_normal (Vector): Cuts solids open if it is not 0: only what is against this normal of
+      the plane {p : normal . p = offset |normal|} is there, and cuts are hatched. Default 0. Since
+      1.1, as what follows.
+    - section_offset (float): of the plane, in scene units; default 0
+    - section_hatch (float): distance of hatching lines, >= 0; default 0: by the size of the cut
     """
     projection: Projection | int | ProjectionName
     position: Vector
@@ -749,6 +763,9 @@ class Camera(_Struct):
     focal_distance: float
     aperture_shape: ApertureShape | int | ApertureShapeName
     lens_radius: float
+    section_normal: Vector
+    section_offset: float
+    section_hatch: float
     def __init__(
         self,
         *,
@@ -761,6 +778,9 @@ class Camera(_Struct):
         focal_distance: SupportsFloat = ...,
         aperture_shape: ApertureShape | int | ApertureShapeName = ...,
         lens_radius: SupportsFloat = ...,
+        section_normal: GivenVector = ...,
+        section_offset: SupportsFloat = ...,
+        section_hatch: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
@@ -774,6 +794,9 @@ class Camera(_Struct):
         focal_distance: SupportsFloat = ...,
         aperture_shape: ApertureShape | int | ApertureShapeName = ...,
         lens_radius: SupportsFloat = ...,
+        section_normal: GivenVector = ...,
+        section_offset: SupportsFloat = ...,
+        section_hatch: SupportsFloat = ...,
     ) -> None: ...
 
 BackgroundTypeName = Literal["solid", "gradient", "spherical", "cylindrical", "equal_area", "sky"]

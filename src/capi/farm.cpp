@@ -81,13 +81,7 @@ FarmMergeOptions to_merge_options(const crt_farm_merge_options& given,
     require(given.skip, "options->skip");
     result.skip = {given.skip, given.skip + given.skip_count};
   }
-  if (given.poll != nullptr) {
-    result.go_on = [call = given.poll, user = given.poll_user, cancel_value] {
-      const int answer = call(user);
-      if (answer != 0) *cancel_value = answer;
-      return answer == 0;
-    };
-  }
+  result.go_on = to_go_on(given.poll, given.poll_user, cancel_value);
   return result;
 }
 

@@ -68,6 +68,8 @@ crt_prepare_options defaults<crt_prepare_options>();
 template <>
 crt_write_options defaults<crt_write_options>();
 template <>
+crt_measure_options defaults<crt_measure_options>();
+template <>
 crt_script_options defaults<crt_script_options>();
 template <>
 crt_diagnostic defaults<crt_diagnostic>();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capi/ray_arrays.hpp"
+#include "capi/structs.hpp"
 #include "crt/measure.hpp"
 #include "text/format.hpp"
 
@@ -25,6 +26,20 @@ std::span<const CField> c_fields<crt_mass>() {
   return fields;
 }
 
+template <>
+std::span<const CField> c_fields<crt_measure_options>() {
+  using S = crt_measure_options;
+  static constexpr std::array fields = {CRT_FIELD(S, threads), CRT_FIELD(S, relative_width),
+                                        CRT_FIELD(S, seconds), CRT_FIELD(S, poll),
+                                        CRT_FIELD(S, poll_user)};
+  return fields;
+}
+
+template <>
+crt_measure_options defaults<crt_measure_options>() {
+  return {};
+}
+
 namespace {
 
 MeasureOptions to_measure_options(double relative_width, double seconds) {
@@ -34,6 +49,23 @@ MeasureOptions to_measure_options(double relative_width, double seconds) {
   const bool has_end = seconds > 0;
   return {.relative_width = relative_width,
           .seconds = has_end ? seconds : std::numeric_limits<double>::infinity()};
+}
+
+void give_distances(const crt_entity* entity, const double* points, std::size_t stride,
+                    std::size_t count, double* signed_distance, double* nearest,
+                    std::size_t nearest_stride, const MeasureOptions& options) {
+  require(entity, "entity");
+  const std::vector<Vec3> questions = to_points(points, stride, count);
+  if (count > 0) require(signed_distance, "signed_distance");
+  const bool wants_points = nearest != nullptr && count > 0;
+  const Places<std::byte> places(reinterpret_cast<std::byte*>(nearest), nearest_stride,
+                                 sizeof(Vec3), wants_points ? count : 0, "nearest");
+  std::vector<NearestPoint> answers(count);
+  nearest_points(entity->value, questions, answers, options);
+  for (std::size_t i = 0; i < count; ++i) {
+    signed_distance[i] = answers[i].signed_distance();
+    if (wants_points) std::memcpy(places[i], &answers[i].point, sizeof(Vec3));
+  }
 }
 
 crt_interval c_interval(const Interval& interval) {
@@ -55,11 +87,29 @@ void copy_to(double* out, const Vec3& point) {
   for (int axis = 0; axis < 3; ++axis) out[axis] = point[axis];
 }
 
-/// Returns how far away the point is that was found, below 0 if that is seen from inside.
-double signed_distance_of(const NearestPoint& nearest) {
-  const Interval& distance = nearest.distance;
-  if (distance.upper <= 0) return distance.lower;
-  return distance.lower < 0 ? 0 : distance.upper;  // a point on the surface has both signs
+void give_clearance(const crt_entity* a, const crt_entity* b, const MeasureOptions& options,
+                    crt_interval* distance, double* on_a, double* on_b) {
+  require(a, "a");
+  require(b, "b");
+  require(distance, "distance");
+  require(on_a, "on_a");
+  require(on_b, "on_b");
+  const Clearance found = clearance(a->value, b->value, options);
+  *distance = c_interval(found.distance);
+  copy_to(on_a, found.on_a);
+  copy_to(on_b, found.on_b);
+}
+
+void give_thickness(const crt_entity* entity, const MeasureOptions& options, crt_interval* least,
+                    double* from, double* to) {
+  require(entity, "entity");
+  require(least, "least");
+  require(from, "from");
+  require(to, "to");
+  const Wall wall = least_wall(entity->value, {.measure = options});
+  *least = c_interval(wall.thickness);
+  copy_to(from, wall.from);
+  copy_to(to, wall.to);
 }
 
 std::vector<Entity> overlapping_entities(crt_entity* const* entities, std::size_t count) {
@@ -75,12 +125,35 @@ std::vector<Entity> overlapping_entities(crt_entity* const* entities, std::size_
 
 }  // namespace
 
+std::function<bool()> to_go_on(crt_poll_fn call, void* user, const CancelValue& cancel_value) {
+  if (call == nullptr) return {};
+  return [call, user, cancel_value] {
+    const int answer = call(user);
+    if (answer != 0) *cancel_value = answer;
+    return answer == 0;
+  };
+}
+
+MeasureOptions to_options(const crt_measure_options* options, const CancelValue& cancel_value,
+                          double usual_width) {
+  const crt_measure_options given = taken_or_default(options, "options");
+  MeasureOptions result = to_measure_options(
+      given.relative_width == 0 ? usual_width : given.relative_width, given.seconds);
+  result.threads = given.threads;
+  result.go_on = to_go_on(given.poll, given.poll_user, cancel_value);
+  return result;
+}
+
 }  // namespace crt::capi
 
 using namespace crt::capi;
 
 crt_status crt_mass_init(crt_mass* mass, size_t struct_size) {
   return guarded([&] { initialise(mass, struct_size, crt_mass{}); });
+}
+
+crt_status crt_measure_options_init(crt_measure_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_measure_options>()); });
 }
 
 crt_status crt_entity_mass(crt_entity* entity, double relative_width, double seconds,
@@ -99,6 +172,14 @@ crt_status crt_entity_mass(crt_entity* entity, double relative_width, double sec
   });
 }
 
+crt_status crt_entity_density(crt_entity* entity, double* out) {
+  return guarded([&] {
+    require(entity, "entity");
+    require(out, "out");
+    *out = crt::density(entity->value);
+  });
+}
+
 crt_status crt_entity_volume(crt_entity* entity, double relative_width, double seconds,
                              crt_interval* out) {
   return give_interval(crt::volume, entity, relative_width, seconds, out);
@@ -107,6 +188,16 @@ crt_status crt_entity_volume(crt_entity* entity, double relative_width, double s
 crt_status crt_entity_area(crt_entity* entity, double relative_width, double seconds,
                            crt_interval* out) {
   return give_interval(crt::surface_area, entity, relative_width, seconds, out);
+}
+
+crt_status crt_entity_centroid(crt_entity* entity, double relative_width, double seconds,
+                               crt_interval out[3]) {
+  return guarded([&] {
+    require(entity, "entity");
+    require(out, "out");
+    const auto found = crt::centroid(entity->value, to_measure_options(relative_width, seconds));
+    std::transform(found.begin(), found.end(), out, c_interval);
+  });
 }
 
 crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double upper[3]) {
@@ -138,34 +229,31 @@ crt_status crt_entity_distance(crt_entity* entity, const double* points, size_t 
                                size_t count, double* signed_distance, double* nearest,
                                size_t nearest_stride) {
   return guarded([&] {
-    require(entity, "entity");
-    const std::vector<crt::Vec3> questions = to_points(points, stride, count);
-    if (count > 0) require(signed_distance, "signed_distance");
-    const bool wants_points = nearest != nullptr && count > 0;
-    const Places<std::byte> places(reinterpret_cast<std::byte*>(nearest), nearest_stride,
-                                   sizeof(crt::Vec3), wants_points ? count : 0, "nearest");
-    std::vector<crt::NearestPoint> answers(count);
-    crt::nearest_points(entity->value, questions, answers);
-    for (std::size_t i = 0; i < count; ++i) {
-      signed_distance[i] = signed_distance_of(answers[i]);
-      if (wants_points) std::memcpy(places[i], &answers[i].point, sizeof(crt::Vec3));
-    }
+    give_distances(entity, points, stride, count, signed_distance, nearest, nearest_stride, {});
+  });
+}
+
+crt_status crt_entity_distance_with(crt_entity* entity, const crt_measure_options* options,
+                                    const double* points, size_t stride, size_t count,
+                                    double* signed_distance, double* nearest,
+                                    size_t nearest_stride) {
+  return guarded_with_cancel([&](const CancelValue& cancel_value) {
+    give_distances(entity, points, stride, count, signed_distance, nearest, nearest_stride,
+                   to_options(options, cancel_value));
   });
 }
 
 crt_status crt_entity_clearance(crt_entity* a, crt_entity* b, double relative_width,
                                 crt_interval* distance, double on_a[3], double on_b[3]) {
-  return guarded([&] {
-    require(a, "a");
-    require(b, "b");
-    require(distance, "distance");
-    require(on_a, "on_a");
-    require(on_b, "on_b");
-    const crt::Clearance found =
-        crt::clearance(a->value, b->value, to_measure_options(relative_width, 0));
-    *distance = c_interval(found.distance);
-    copy_to(on_a, found.on_a);
-    copy_to(on_b, found.on_b);
+  return guarded(
+      [&] { give_clearance(a, b, to_measure_options(relative_width, 0), distance, on_a, on_b); });
+}
+
+crt_status crt_entity_clearance_with(crt_entity* a, crt_entity* b,
+                                     const crt_measure_options* options, crt_interval* distance,
+                                     double on_a[3], double on_b[3]) {
+  return guarded_with_cancel([&](const CancelValue& cancel_value) {
+    give_clearance(a, b, to_options(options, cancel_value), distance, on_a, on_b);
   });
 }
 
@@ -185,15 +273,15 @@ crt_status crt_interference(crt_entity* const* entities, size_t entity_count, do
 
 crt_status crt_entity_thickness(crt_entity* entity, double relative_width, crt_interval* least,
                                 double from[3], double to[3]) {
-  return guarded([&] {
-    require(entity, "entity");
-    require(least, "least");
-    require(from, "from");
-    require(to, "to");
-    const crt::Wall wall =
-        crt::least_wall(entity->value, {.measure = to_measure_options(relative_width, 0)});
-    *least = c_interval(wall.thickness);
-    copy_to(from, wall.from);
-    copy_to(to, wall.to);
+  return guarded(
+      [&] { give_thickness(entity, to_measure_options(relative_width, 0), least, from, to); });
+}
+
+crt_status crt_entity_thickness_with(crt_entity* entity, const crt_measure_options* options,
+                                     crt_interval* least, double from[3], double to[3]) {
+  return guarded_with_cancel([&](const CancelValue& cancel_value) {
+    give_thickness(entity,
+                   to_options(options, cancel_value, crt::WallOptions().measure.relative_width),
+                   least, from, to);
   });
 }

@@ -185,19 +185,12 @@ crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out) {
 
 crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options,
                                   crt_prepared** out) {
-  std::atomic<int> cancel_value = 0;  // the callback may be called on another thread
-  return guarded(cancel_value, [&] {
+  return guarded_with_cancel([&](const CancelValue& cancel_value) {
     require(scene, "scene");
     require(out, "out");
     const auto given = taken_or_default(options, "options");
     crt::PrepareOptions how{.max_primitives = given.max_primitives};
-    if (given.poll != nullptr) {
-      how.go_on = [&cancel_value, call = given.poll, user = given.poll_user] {
-        const int answer = call(user);
-        if (answer != 0) cancel_value = answer;
-        return answer == 0;
-      };
-    }
+    how.go_on = to_go_on(given.poll, given.poll_user, cancel_value);
     std::optional<crt::PreparedScene> earlier;
     if (given.previous != nullptr) {
       how.earlier = &given.previous->value;

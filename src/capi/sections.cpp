@@ -47,13 +47,19 @@ using namespace crt::capi;
 
 crt_status crt_section_create(crt_entity* entity, const double normal[3], double offset,
                               double deviation, crt_section** out) {
-  return guarded([&] {
+  return crt_section_create_with(entity, normal, offset, deviation, nullptr, out);
+}
+
+crt_status crt_section_create_with(crt_entity* entity, const double normal[3], double offset,
+                                   double deviation, const crt_measure_options* options,
+                                   crt_section** out) {
+  return guarded_with_cancel([&](const CancelValue& cancel_value) {
     require(entity, "entity");
     require(normal, "normal");
     require(out, "out");
     Reference<crt_section> section(new crt_section);
-    section->value =
-        crt::section(entity->value, {normal[0], normal[1], normal[2]}, offset, deviation);
+    section->value = crt::section(entity->value, {normal[0], normal[1], normal[2]}, offset,
+                                  deviation, to_options(options, cancel_value));
     list_points(*section, deviation);
     *out = section.release();
   });

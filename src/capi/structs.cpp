@@ -25,7 +25,7 @@ std::span<const CField> c_fields<crt_material>() {
       CRT_FIELD(S, pattern),          CRT_FIELD(S, reflectivity), CRT_FIELD(S, transparency),
       CRT_FIELD(S, refractive_index), CRT_FIELD(S, diffuse),      CRT_FIELD(S, specular),
       CRT_FIELD(S, shininess),        CRT_FIELD(S, absorption),   CRT_FIELD(S, bump),
-      CRT_FIELD(S, bump_height),      CRT_FIELD(S, emission)};
+      CRT_FIELD(S, bump_height),      CRT_FIELD(S, emission),     CRT_FIELD(S, density)};
   return fields;
 }
 
@@ -38,7 +38,8 @@ std::span<const CField> c_fields<crt_principled>() {
       CRT_FIELD(S, transmission),   CRT_FIELD(S, absorption),    CRT_FIELD(S, coat),
       CRT_FIELD(S, coat_roughness), CRT_FIELD(S, sheen),         CRT_FIELD(S, emission),
       CRT_FIELD(S, metallic_map),   CRT_FIELD(S, roughness_map), CRT_FIELD(S, emission_map),
-      CRT_FIELD(S, bump),           CRT_FIELD(S, normal_map),    CRT_FIELD(S, bump_height)};
+      CRT_FIELD(S, bump),           CRT_FIELD(S, normal_map),    CRT_FIELD(S, bump_height),
+      CRT_FIELD(S, density)};
   return fields;
 }
 
@@ -115,7 +116,9 @@ std::span<const CField> c_fields<crt_camera>() {
                                         CRT_FIELD(S, pointing),       CRT_FIELD(S, fov),
                                         CRT_FIELD(S, roll),           CRT_FIELD(S, aperture),
                                         CRT_FIELD(S, focal_distance), CRT_FIELD(S, aperture_shape),
-                                        CRT_FIELD(S, reserved),       CRT_FIELD(S, lens_radius)};
+                                        CRT_FIELD(S, reserved),       CRT_FIELD(S, lens_radius),
+                                        CRT_FIELD(S, section_normal), CRT_FIELD(S, section_offset),
+                                        CRT_FIELD(S, section_hatch)};
   return fields;
 }
 

@@ -7,6 +7,7 @@
 #include "crt/camera.hpp"
 #include "crt/light.hpp"
 #include "crt/material.hpp"
+#include "crt/measure.hpp"
 #include "crt/mesh.hpp"
 #include "crt/render.hpp"
 #include "crt/settings.hpp"
@@ -74,6 +75,13 @@ Settings to_settings(const crt_settings* settings);
 // NULL stands for the defaults here.
 ScriptOptions to_options(const crt_script_options* options);
 RenderOptions to_options(const crt_render_options* options, const CancelValue& cancel_value);
+/// A relative width of 0 stands for the usual one.
+MeasureOptions to_options(const crt_measure_options* options, const CancelValue& cancel_value,
+                          double usual_width = MeasureOptions().relative_width);
+
+/// Makes what a poll callback is called through, which keeps the number that it stops with. It is
+/// empty without one.
+std::function<bool()> to_go_on(crt_poll_fn call, void* user, const CancelValue& cancel_value);
 
 /// Makes what a progress callback is called through, which keeps the number that it stops with.
 std::function<bool(double)> to_progress(crt_progress_fn call, void* user,

@@ -45,10 +45,16 @@ std::vector<SurfaceMeshPart> surface_parts(const crt_surface_mesh* const* meshes
 using namespace crt::capi;
 
 crt_status crt_entity_tessellate(crt_entity* entity, double deviation, crt_surface_mesh** out) {
-  return guarded([&] {
+  return crt_entity_tessellate_with(entity, deviation, nullptr, out);
+}
+
+crt_status crt_entity_tessellate_with(crt_entity* entity, double deviation,
+                                      const crt_measure_options* options, crt_surface_mesh** out) {
+  return guarded_with_cancel([&](const CancelValue& cancel_value) {
     require(entity, "entity");
     require(out, "out");
-    *out = new crt_surface_mesh(crt::tessellate(entity->value, deviation));
+    *out = new crt_surface_mesh(
+        crt::tessellate(entity->value, deviation, to_options(options, cancel_value)));
   });
 }
 

@@ -49,9 +49,10 @@ void write_code(const ExportRequest& request, Reporter& reporter) {
                                         request.script, !to_stream, reporter);
   if (!result.scene) return;
   if (writes_mesh(request)) return export_mesh(*result.scene, request, reporter);
-  if (request.deviation)
+  if (request.deviation || request.seconds)
     throw Error(ErrorCode::invalid_argument,
-                "--deviation is for meshes: give the output an ending such as .stl or .3mf");
+                "--deviation and --seconds are for meshes: give the output an ending such as .stl "
+                "or .3mf");
   const SourceCode code = code_of(*result.scene, request);
   for (const std::string& warning : code.warnings) reporter.warn(warning);
   if (to_stream && !code.files.empty()) {

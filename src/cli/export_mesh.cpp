@@ -41,7 +41,8 @@ std::vector<std::size_t> places_of(const Scene& scene, const ExportRequest& requ
 std::vector<MeshedEntity> meshes_of(const Scene& scene, const ExportRequest& request,
                                     double deviation, Reporter& reporter) {
   const InterruptScope interrupt;
-  const MeasureOptions options{.go_on = [&] { return !interrupt.interrupted(); }};
+  MeasureOptions options{.go_on = [&] { return !interrupt.interrupted(); }};
+  if (request.seconds) options.seconds = *request.seconds;
   std::vector<MeshedEntity> meshes;
   for (const std::size_t place : places_of(scene, request)) {
     try {

@@ -30,8 +30,11 @@ bool is_finite(const Interval& number) {
 /// Finds the numbers of one entity that were asked for, and no others.
 class EntityMeasuring {
  public:
-  EntityMeasuring(const MeasureRequest& request, MeasureOptions options)
-      : request_(request), options_(std::move(options)), all_(!request.asks_for_some()) {}
+  EntityMeasuring(const MeasureRequest& request, MeasureOptions options, Unit unit)
+      : request_(request),
+        options_(std::move(options)),
+        unit_(unit),
+        all_(!request.asks_for_some()) {}
 
   Measured measure(const Entity& entity, const std::string& name) const {
     Measured found{.name = name,
@@ -62,17 +65,30 @@ class EntityMeasuring {
     return walls;
   }
 
+  /// Returns the mass of a cubed scene unit, in kg if the density is known.
+  Interval mass_of_cubed_unit(double of_materials) const {
+    const double given = request_.density.value_or(1);
+    if (of_materials == 0) return {given, given};
+    // The unit and three products are rounded.
+    constexpr double rounding = 0x1p-50;
+    const double metres = metres_of(unit_);
+    const double mass = of_materials * metres * metres * metres;
+    return {mass * (1 - rounding), mass * (1 + rounding)};
+  }
+
   void measure_mass(const Entity& entity, Measured& found) const {
     if (all_ || request_.mass) {
+      if (request_.mass) found.density = density(entity);
       const MassProperties properties = mass_properties(entity, options_);
       found.volume = properties.volume;
       if (all_ || request_.area) found.area = properties.area;
       if (std::ranges::all_of(properties.centroid, is_finite)) found.centroid = properties.centroid;
       if (!request_.mass) return;
-      const Interval density{request_.density, request_.density};
-      found.mass = product_of(properties.volume, density);
+      found.mass_is_in_kg = found.density > 0;
+      const Interval mass_of_unit = mass_of_cubed_unit(found.density);
+      found.mass = product_of(properties.volume, mass_of_unit);
       found.inertia = properties.inertia;
-      for (Interval& number : *found.inertia) number = product_of(number, density);
+      for (Interval& number : *found.inertia) number = product_of(number, mass_of_unit);
       return;
     }
     if (request_.volume) found.volume = volume(entity, options_);
@@ -81,6 +97,7 @@ class EntityMeasuring {
 
   const MeasureRequest& request_;
   MeasureOptions options_;
+  Unit unit_;
   bool all_;
 };
 
@@ -99,37 +116,52 @@ void include(std::optional<BoundingBox>& all, const std::optional<BoundingBox>& 
   }
 }
 
-/// Finds the centroid of all: the mean of theirs, by their volumes.
-std::optional<std::array<Interval, 3>> common_centroid(const std::vector<Measured>& parts,
-                                                       const Interval& volume) {
-  if (!(volume.lower > 0)) return {};
+bool has_masses(const std::vector<Measured>& parts) {
+  return std::ranges::any_of(parts, [](const Measured& part) { return part.mass.has_value(); });
+}
+
+/// Finds the centroid of all: the mean of theirs, by their masses or volumes.
+std::optional<std::array<Interval, 3>> common_centroid(
+    const std::vector<Measured>& parts, const std::optional<Interval> Measured::*weight,
+    const Interval& all) {
+  if (!(all.lower > 0)) return {};
   std::array<Interval, 3> sum{};
   bool is_known = false;
   for (const Measured& part : parts) {
-    if (!part.volume || !part.centroid) continue;
+    if (!(part.*weight) || !part.centroid) continue;
     is_known = true;
     for (std::size_t i = 0; i < 3; ++i)
-      sum[i] = sum_of(sum[i], product_of(*part.volume, (*part.centroid)[i]));
+      sum[i] = sum_of(sum[i], product_of(*(part.*weight), (*part.centroid)[i]));
   }
   if (!is_known) return {};
-  for (Interval& number : sum) number = quotient_of(number, volume);
+  for (Interval& number : sum) number = quotient_of(number, all);
   return sum;
 }
 
 }  // namespace
 
-Measured sum_of(const std::vector<Measured>& parts) {
+Measured sum_of(const std::vector<Measured>& parts, bool has_density) {
   Measured sum;
+  const auto is_in_kg = [](const Measured& part) { return part.density > 0 || !part.mass; };
+  const bool all_in_kg = std::ranges::all_of(parts, is_in_kg);
+  const bool none_in_kg =
+      std::ranges::all_of(parts, [](const Measured& part) { return part.density == 0; });
+  const bool has_mass = all_in_kg || none_in_kg || has_density;
   std::size_t count = 0;
   for (const Measured& part : parts) {
     include(sum.bounds, part.bounds);
     add(sum.volume, part.volume);
     add(sum.area, part.area);
-    add(sum.mass, part.mass);
+    if (has_mass) add(sum.mass, part.mass);
     if (part.fault.empty()) ++count;
   }
   sum.name = fmt::format("sum of {} of {} entities (overlaps count for each)", count, parts.size());
-  if (sum.volume) sum.centroid = common_centroid(parts, *sum.volume);
+  if (sum.mass && !none_in_kg) {
+    if (all_in_kg) sum.mass_is_in_kg = true;
+    sum.centroid = common_centroid(parts, &Measured::mass, *sum.mass);
+  } else if (sum.volume && (has_mass || !has_masses(parts))) {
+    sum.centroid = common_centroid(parts, &Measured::volume, *sum.volume);
+  }
   return sum;
 }
 
@@ -193,7 +225,7 @@ std::string report(const Measured& found, const MeasureRequest& request, std::st
   if (!found.fault.empty()) add_line("unknown", found.fault);
   add_number("volume", found.volume, fmt::format(" {}3", unit));
   add_number("area", found.area, fmt::format(" {}2", unit));
-  add_number("mass", found.mass, "");
+  add_number("mass", found.mass, found.mass_is_in_kg ? " kg" : "");
   if (found.centroid) add_line("centroid", centroid_text(*found.centroid, unit));
   if (found.inertia) add_line("inertia", "about the centroid" + inertia_text(*found.inertia));
   if (found.section) text += section_text(*found.section, unit);
@@ -207,7 +239,7 @@ std::string report_of_all(const MeasureRequest& request, std::string_view unit,
                           const std::vector<Measured>& parts) {
   std::string text;
   for (const Measured& part : parts) text += report(part, request, unit);
-  if (parts.size() != 1) text += report(sum_of(parts), request, unit);
+  if (parts.size() != 1) text += report(sum_of(parts, request.density.has_value()), request, unit);
   return text;
 }
 
@@ -250,7 +282,7 @@ void measure(const MeasureRequest& request, Reporter& reporter) {
                                .seconds = request.seconds,
                                .threads = request.threads,
                                .go_on = go_on};
-  const EntityMeasuring measuring(request, options);
+  const EntityMeasuring measuring(request, options, result.scene->settings.unit);
   const std::vector<Entity>& entities = result.scene->entities;
   const std::vector<std::string> names = names_of(result, script.text());
   const MeasuredPairs pairs = measure_pairs(request, entities, names, options);

@@ -64,6 +64,8 @@ Json json_of(const Measured& found) {
   add_member("volume", found.volume);
   add_member("area", found.area);
   add_member("mass", found.mass);
+  if (found.density > 0) object["density"] = found.density;
+  if (found.mass_is_in_kg) object["mass_unit"] = "kg";
   add_member("centroid", found.centroid);
   add_member("inertia", found.inertia);
   add_member("section", found.section);
@@ -96,11 +98,11 @@ std::string measures_json(const MeasureRequest& request, const std::string& scri
                           std::string_view unit, const std::vector<Measured>& parts,
                           const MeasuredPairs& pairs) {
   Json object = {{"script", script}, {"unit", unit}, {"relative_width", request.relative_width}};
-  if (request.mass) object["density"] = request.density;
+  if (request.mass) object["density"] = request.density.value_or(1);
   if (request.asks_for_entities()) {
     object["entities"] = Json::array();
     for (const Measured& part : parts) object["entities"].push_back(json_of(part));
-    object["sum"] = json_of(sum_of(parts));
+    object["sum"] = json_of(sum_of(parts, request.density.has_value()));
   }
   if (!pairs.distances.empty()) object["distances"] = json_of_all(pairs.distances);
   if (pairs.overlaps) object["interference"] = json_of_all(*pairs.overlaps);

@@ -8,32 +8,6 @@ namespace crt::cli {
 
 namespace {
 
-/// Reads "z=0.3" or "nx,ny,nz=offset".
-SectionPlane parse_plane(const std::string& text) {
-  const auto refuse = [&]() -> SectionPlane {
-    throw WrongValue("--section", "a plane as z=0.3 or 1,0,1=0.3", text);
-  };
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) return refuse();
-  SectionPlane plane;
-  if (!parse_finite(text.substr(equals + 1), plane.offset)) return refuse();
-  const std::string direction = text.substr(0, equals);
-  if (direction == "x" || direction == "y" || direction == "z") {
-    plane.normal = {direction == "x" ? 1 : 0, direction == "y" ? 1 : 0, direction == "z" ? 1 : 0};
-    return plane;
-  }
-  std::size_t begin = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t comma = direction.find(',', begin);
-    if ((comma == std::string::npos) != (axis == 2)) return refuse();
-    const std::size_t count = comma == std::string::npos ? comma : comma - begin;
-    if (!parse_finite(direction.substr(begin, count), plane.normal[axis])) return refuse();
-    begin = comma + 1;
-  }
-  if (plane.normal == Vec3(0, 0, 0)) return refuse();
-  return plane;
-}
-
 void add_section_rows(std::vector<OptionRow>& rows, MeasureRequest& request) {
   rows.push_back(
       {.names = "--section",
@@ -70,6 +44,7 @@ Examples:
   crt measure part.crt                            bounds, volume, area, centroid
   crt measure part.crt --unit mm --mass --density 7.85e-6
                                                   mass, centroid and inertia, here in kg and mm
+  crt measure assembly.crt --mass                 in kg, by the densities of materials
   crt measure part.crt --volume --relative-width 1e-9 --json
   crt measure part.crt --section y=6 -o part.dxf  the area of a section, and its drawing
   crt measure part.crt --distance 0,1             how near two entities are, and where)",
@@ -86,7 +61,8 @@ Examples:
   add_flag("--thickness", request.thickness, "how thin the thinnest wall is, and where");
   rows.push_back({.names = "--density",
                   .type = "D",
-                  .help = "the mass of a cubed scene unit (1), and asks for --mass",
+                  .help = "the mass of a cubed scene unit (1) of what has a material without a "
+                          "density, and asks for --mass",
                   .take = [&request](const std::string& text) {
                     request.density = parse_positive("--density", text);
                     request.mass = true;

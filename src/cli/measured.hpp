@@ -22,6 +22,8 @@ struct Measured {
   std::optional<Interval> volume;
   std::optional<Interval> area;
   std::optional<Interval> mass;
+  double density = 0;  ///< of its materials, in kg per cubic metre; or 0
+  bool mass_is_in_kg = false;
   std::optional<std::array<Interval, 3>> centroid;
   std::optional<std::array<Interval, 6>> inertia;
   std::optional<Section> section{};
@@ -33,8 +35,9 @@ inline bool is_empty(const BoundingBox& box) {
   return !(box.lower.x <= box.upper.x);
 }
 
-/// Returns what all entities together are.
-Measured sum_of(const std::vector<Measured>& parts);
+/// Returns what all entities together are. Where the materials of some say a density and those of
+/// others none, there is a mass only if one was given for these.
+Measured sum_of(const std::vector<Measured>& parts, bool has_density);
 
 /// Returns all as JSON, with intervals as [lower, upper].
 std::string measures_json(const MeasureRequest& request, const std::string& script,

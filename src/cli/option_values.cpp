@@ -236,4 +236,29 @@ void take_aovs(const std::string& list, Aovs& aovs) {
   }
 }
 
+SectionPlane parse_plane(const std::string& text) {
+  const auto refuse = [&]() -> SectionPlane {
+    throw WrongValue("--section", "a plane as z=0.3 or 1,0,1=0.3", text);
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return refuse();
+  SectionPlane plane;
+  if (!parse_finite(text.substr(equals + 1), plane.offset)) return refuse();
+  const std::string direction = text.substr(0, equals);
+  if (direction == "x" || direction == "y" || direction == "z") {
+    plane.normal = {direction == "x" ? 1 : 0, direction == "y" ? 1 : 0, direction == "z" ? 1 : 0};
+    return plane;
+  }
+  std::size_t begin = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t comma = direction.find(',', begin);
+    if ((comma == std::string::npos) != (axis == 2)) return refuse();
+    const std::size_t count = comma == std::string::npos ? comma : comma - begin;
+    if (!parse_finite(direction.substr(begin, count), plane.normal[axis])) return refuse();
+    begin = comma + 1;
+  }
+  if (plane.normal == Vec3(0, 0, 0)) return refuse();
+  return plane;
+}
+
 }  // namespace crt::cli

@@ -51,6 +51,8 @@ void take_compat(ScriptOptions& script, const std::string& year);
 
 FrameRange parse_frames(const std::string& text);
 Region parse_region(const std::string& text);
+/// Reads the value of --section: "z=0.3" or "nx,ny,nz=offset".
+SectionPlane parse_plane(const std::string& text);
 double parse_positive(const std::string& option, const std::string& text);
 int parse_threads(const std::string& text);
 /// Returns a power of 2 that Settings::max_samples can be.

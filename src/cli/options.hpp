@@ -55,11 +55,18 @@ struct PictureRequest : CommonRequest {
   bool reproducible = false;
 };
 
+/// A SectionPlane is {p : normal . p / |normal| = offset}.
+struct SectionPlane {
+  Vec3 normal{0, 0, 1};
+  double offset = 0;
+};
+
 struct RenderRequest : PictureRequest {
   std::vector<std::filesystem::path> scenes;
   std::optional<FrameRange> frames;
-  double frames_per_second = 24;      ///< of a film
-  std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
+  double frames_per_second = 24;        ///< of a film
+  std::filesystem::path keep_frames;    ///< the pictures of a film go into this folder, too
+  std::optional<SectionPlane> section;  ///< cuts scenes open, in place of their cameras' own
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
 };
@@ -120,12 +127,6 @@ struct TradeRequest : CommonRequest {
   std::optional<SolidMeasure> measure;
 };
 
-/// A SectionPlane is {p : normal . p / |normal| = offset}.
-struct SectionPlane {
-  Vec3 normal{0, 0, 1};
-  double offset = 0;
-};
-
 /// A MeasureRequest asks how much entities are, and where.
 struct MeasureRequest : CommonRequest {
   std::filesystem::path scene;
@@ -139,7 +140,8 @@ struct MeasureRequest : CommonRequest {
   std::filesystem::path output;  ///< gets the section; empty for none
   double hatch = 0;
   bool thickness = false;
-  double density = 1;
+  /// Is that of entities whose materials say none, by cubed scene units.
+  std::optional<double> density;
   double relative_width = 1e-4;
   double wall_width = 1e-2;  ///< the relative width of a thickness, which takes longer
   double seconds = std::numeric_limits<double>::infinity();  ///< that each number may take
@@ -175,6 +177,7 @@ struct ExportRequest : CommonRequest {
   std::optional<SourceLanguage> language;  ///< without it the ending of the output says it
   std::optional<int> entity;               ///< writes this one alone
   std::optional<double> deviation;         ///< of triangles, in scene units
+  std::optional<double> seconds;           ///< that the triangles of each entity may take
 };
 
 struct FormatRequest : CommonRequest {

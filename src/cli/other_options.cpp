@@ -148,6 +148,12 @@ Examples:
                   .take = [&request](const std::string& text) {
                     request.deviation = parse_positive("--deviation", text);
                   }});
+  rows.push_back({.names = "--seconds",
+                  .type = "SECONDS",
+                  .help = "the triangles of each entity are as good as they are by then",
+                  .take = [&request](const std::string& text) {
+                    request.seconds = parse_positive("--seconds", text);
+                  }});
   rows.push_back({.names = "--as",
                   .type = "cpp|python|c|script",
                   .help = "the language (default: as the ending says, or else cpp)",

@@ -147,13 +147,17 @@ class RenderJob {
     options.go_on = go_on;
     // Standard output belongs to what was asked for there.
     const bool is_free = request_.stats != standard_stream && planned.output != standard_stream;
-    const ScriptResult result = run_scene(planned.script, options, is_free, reporter_);
-    const std::optional<Scene>& scene = result.scene;
+    ScriptResult result = run_scene(planned.script, options, is_free, reporter_);
+    std::optional<Scene>& scene = result.scene;
     const double parse_seconds = watch.seconds();
     if (!scene) return std::nullopt;
     warn_of_still(planned, result);
     const std::optional<Region>& region = request_.render.region;
     if (region && !reporter_.accept_region(*region, scene->settings)) return std::nullopt;
+    if (request_.section) {
+      scene->camera.section_normal = request_.section->normal;
+      scene->camera.section_offset = request_.section->offset;
+    }
     projection_ = scene->camera.projection;
     const PictureTask task{.request = request_,
                            .picture = output == standard_stream ? usual_name() : output,

@@ -131,6 +131,11 @@ CommandTable render_table(RenderRequest& request) {
   add_script_rows(rows, request);
   add_frames(rows, request);
   add_region_row(rows, request.render.region, "renders only this part, as a picture of its size");
+  rows.push_back(
+      {.names = "--section",
+       .type = "PLANE",
+       .help = "cuts solids open by x=, y= or z= a number, or by NX,NY,NZ=OFFSET, and hatches cuts",
+       .take = [&request](const std::string& text) { request.section = parse_plane(text); }});
   add_threads_row(rows, request.render.threads);
   add_passes(rows, request);
   add_limits(rows, request);

@@ -20,7 +20,8 @@ bool are_equal(const Camera& a, const Camera& b) {
   return a.position == b.position && a.pointing == b.pointing && a.fov == b.fov &&
          a.roll == b.roll && a.projection == b.projection && a.aperture == b.aperture &&
          a.lens_radius == b.lens_radius && a.focal_distance == b.focal_distance &&
-         a.aperture_shape == b.aperture_shape;
+         a.aperture_shape == b.aperture_shape && a.section_normal == b.section_normal &&
+         a.section_offset == b.section_offset && a.section_hatch == b.section_hatch;
 }
 
 bool are_equal(const std::optional<Camera>& a, const std::optional<Camera>& b) {
@@ -240,7 +241,13 @@ Scene Renderer::shown_scene() {
                    : visible_scene(*scene_, places_, options_,
                                    [this]() -> const std::vector<BoundingBox>& { return boxes(); });
   if (has_entities) scene.entities.clear();
-  if (camera_) scene.camera = *camera_;
+  if (camera_) {
+    // The page says where the camera is. How the scene is cut open stays as the script says.
+    const Camera of_script = std::exchange(scene.camera, *camera_);
+    scene.camera.section_normal = of_script.section_normal;
+    scene.camera.section_offset = of_script.section_offset;
+    scene.camera.section_hatch = of_script.section_hatch;
+  }
   scene = scene_in_mode(std::move(scene), options_.mode, *script_camera_);
   if (has_entities) {
     scene.entities = shown_->entities;

@@ -93,7 +93,7 @@ AT(crt_light, visible, 168);
 AT(crt_light, two_sided, 172);
 AT(crt_light, scale, 176);
 
-SIZE(crt_camera, 104);
+SIZE(crt_camera, 144);
 AT(crt_camera, struct_size, 0);
 AT(crt_camera, projection, 4);
 AT(crt_camera, position, 8);
@@ -105,6 +105,9 @@ AT(crt_camera, focal_distance, 80);
 AT(crt_camera, aperture_shape, 88);
 AT(crt_camera, reserved, 92);
 AT(crt_camera, lens_radius, 96);
+AT(crt_camera, section_normal, 104);
+AT(crt_camera, section_offset, 128);
+AT(crt_camera, section_hatch, 136);
 
 SIZE(crt_background, 192);
 AT(crt_background, struct_size, 0);
@@ -229,6 +232,13 @@ AT(crt_render_options, aovs, 68);
 AT(crt_render_options, checkpoint, 72);
 AT(crt_render_options, max_ray_steps, 80);
 
+SIZE(crt_measure_options, 40);
+AT(crt_measure_options, struct_size, 0);
+AT(crt_measure_options, threads, 4);
+AT(crt_measure_options, relative_width, 8);
+AT(crt_measure_options, seconds, 16);
+AT(crt_measure_options, poll, 24);
+AT(crt_measure_options, poll_user, 32);
 SIZE(crt_prepare_options, 40);
 AT(crt_prepare_options, struct_size, 0);
 AT(crt_prepare_options, reserved, 4);

@@ -1,7 +1,7 @@
 // This is the layout of what crt.h declares of materials: a part of layout.c.
 #include "layout.h"
 
-SIZE(crt_material, 160);
+SIZE(crt_material, 168);
 AT(crt_material, struct_size, 0);
 AT(crt_material, reserved, 4);
 AT(crt_material, color, 8);
@@ -17,8 +17,9 @@ AT(crt_material, absorption, 96);
 AT(crt_material, bump, 120);
 AT(crt_material, bump_height, 128);
 AT(crt_material, emission, 136);
+AT(crt_material, density, 160);
 
-SIZE(crt_principled, 192);
+SIZE(crt_principled, 200);
 AT(crt_principled, struct_size, 0);
 AT(crt_principled, reserved, 4);
 AT(crt_principled, color, 8);
@@ -38,3 +39,4 @@ AT(crt_principled, emission_map, 160);
 AT(crt_principled, bump, 168);
 AT(crt_principled, normal_map, 176);
 AT(crt_principled, bump_height, 184);
+AT(crt_principled, density, 192);

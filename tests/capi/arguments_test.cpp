@@ -30,6 +30,10 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   double corner[3];
   std::int8_t side = 0;
   crt_surface_mesh* surface = nullptr;
+  crt_section* section = nullptr;
+  crt_measure_options how;
+  crt_measure_options_init(&how, sizeof how);
+  const crt_measure_options unset = {};
   crt_mass mass;
   crt_mass_init(&mass, sizeof mass);
   crt_light light;
@@ -167,6 +171,36 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"least", [&] { return crt_entity_thickness(ball.get(), 1, nullptr, corner, corner); }},
       {"from", [&] { return crt_entity_thickness(ball.get(), 1, &mass.volume, nullptr, corner); }},
       {"to", [&] { return crt_entity_thickness(ball.get(), 1, &mass.volume, corner, nullptr); }},
+      {"the struct", [&] { return crt_measure_options_init(nullptr, sizeof how); }},
+      {"entity", [&] { return crt_entity_density(nullptr, corner); }},
+      {"out", [&] { return crt_entity_density(ball.get(), nullptr); }},
+      {"entity", [&] { return crt_entity_centroid(nullptr, 1, 0, mass.centroid); }},
+      {"out", [&] { return crt_entity_centroid(ball.get(), 1, 0, nullptr); }},
+      {"entity",
+       [&] { return crt_entity_distance_with(nullptr, &how, z, 0, 1, corner, nullptr, 0); }},
+      {"options",
+       [&] { return crt_entity_distance_with(ball.get(), &unset, z, 0, 1, corner, nullptr, 0); }},
+      {"a",
+       [&] {
+         return crt_entity_clearance_with(nullptr, ball.get(), &how, &mass.volume, corner, corner);
+       }},
+      {"options",
+       [&] {
+         return crt_entity_clearance_with(ball.get(), ball.get(), &unset, &mass.volume, corner,
+                                          corner);
+       }},
+      {"least",
+       [&] { return crt_entity_thickness_with(ball.get(), &how, nullptr, corner, corner); }},
+      {"options",
+       [&] { return crt_entity_thickness_with(ball.get(), &unset, &mass.volume, corner, corner); }},
+      {"entity", [&] { return crt_entity_tessellate_with(nullptr, 1, &how, &surface); }},
+      {"out", [&] { return crt_entity_tessellate_with(ball.get(), 1, &how, nullptr); }},
+      {"options", [&] { return crt_entity_tessellate_with(ball.get(), 1, &unset, &surface); }},
+      {"entity", [&] { return crt_section_create_with(nullptr, o, 0, 1, &how, &section); }},
+      {"normal",
+       [&] { return crt_section_create_with(ball.get(), nullptr, 0, 1, &how, &section); }},
+      {"out", [&] { return crt_section_create_with(ball.get(), o, 0, 1, &how, nullptr); }},
+      {"options", [&] { return crt_section_create_with(ball.get(), o, 0, 1, &unset, &section); }},
       {"entities", [&] { return crt_interference(nullptr, 1, 1, 0, nullptr, 0, &count); }},
       {"entities[0]", [&] { return crt_interference(nothing, 1, 1, 0, nullptr, 0, &count); }},
       {"overlaps", [&] { return crt_interference(nullptr, 0, 1, 0, nullptr, 1, &count); }},

@@ -19,8 +19,12 @@ inline void require_order(const crt_interval& interval) {
 /// Cuts an entity by a plane.
 inline void cut_entity(Input& input, crt_entity* entity) {
   const auto normal = input.vector();
+  auto how = scrambled<crt_measure_options>(input, crt_measure_options_init);
+  how.poll = nullptr;
+  const bool is_asked = input.below(2) == 0;
   crt_section* section = nullptr;
-  if (crt_section_create(entity, normal.data(), input.number(), input.number(), &section) != CRT_OK)
+  if (crt_section_create_with(entity, normal.data(), input.number(), input.number(),
+                              is_asked ? &how : nullptr, &section) != CRT_OK)
     return require(section == nullptr);
   crt_interval area;
   require(crt_section_area(section, &area) == CRT_OK);

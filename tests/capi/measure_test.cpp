@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "measured_parts.hpp"
 #include "support.hpp"
 
 using namespace crt::test;
@@ -14,20 +15,6 @@ using namespace crt::test;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-bool holds(const crt_interval& interval, double truth) {
-  return interval.lower <= truth && truth <= interval.upper;
-}
-
-/// Makes half of a torus about the y axis: what is in front of x = 0.
-EntityHandle half_torus() {
-  const Numbers center = {0, 0, 0};
-  const Numbers axis = {0, 1, 0};
-  const EntityHandle whole = made<EntityHandle>(
-      [&](crt_entity** out) { return crt_torus_create(center.data(), axis.data(), 2, 0.5, out); });
-  const EntityHandle back = box({-5, -5, -5}, {0, 5, 5});
-  return difference(whole.get(), back.get());
-}
 
 crt_mass mass_of(crt_entity* entity, double relative_width) {
   crt_mass mass;

@@ -83,6 +83,7 @@ TEST_CASE("initialising writes the defaults and nothing behind the size that was
   check_init<crt_settings>(crt_settings_init, offsetof(crt_settings, precision));  // of 1.0
   check_init<crt_custom>(crt_custom_init);
   check_init<crt_mass>(crt_mass_init);
+  check_init<crt_measure_options>(crt_measure_options_init);
   check_init<crt_script_options>(crt_script_options_init);
   check_init<crt_render_options>(crt_render_options_init);
   check_init<crt_write_options>(crt_write_options_init);

@@ -15,6 +15,9 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
   const ProfileHandle square = square_profile();
   crt_mass mass;
   CHECK(crt_mass_init(&mass, sizeof mass) == CRT_OK);
+  crt_measure_options how;
+  crt_measure_options_init(&how, sizeof how);
+  crt_surface_mesh* surface = nullptr;
   std::size_t count = 0;
   double place[3];
   for (const double bad : {not_a_number, infinity, -infinity}) {
@@ -105,6 +108,7 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
         {"relative_width", [&] { return crt_entity_volume(ball.get(), bad, 0, &mass.volume); }},
         {"relative_width", [&] { return crt_entity_area(ball.get(), bad, 0, &mass.area); }},
         {"relative_width", [&] { return crt_entity_mass(ball.get(), bad, 0, &mass); }},
+        {"relative_width", [&] { return crt_entity_centroid(ball.get(), bad, 0, mass.centroid); }},
         {"relative_width",
          [&] { return crt_interference(nullptr, 0, bad, 0, nullptr, 0, &count); }},
         {"relative_width",
@@ -124,6 +128,18 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
         {"seconds", [&] { return crt_entity_area(ball.get(), 0.1, bad, &mass.area); }},
         {"seconds", [&] { return crt_entity_mass(ball.get(), 0.1, bad, &mass); }},
         {"seconds", [&] { return crt_interference(nullptr, 0, 0.1, bad, nullptr, 0, &count); }},
+        {"seconds",
+         [&] {
+           how.relative_width = 0;
+           how.seconds = bad;
+           return crt_entity_tessellate_with(ball.get(), 0.1, &how, &surface);
+         }},
+        {"relative_width",
+         [&] {
+           how.seconds = 0;
+           how.relative_width = bad;
+           return crt_entity_tessellate_with(ball.get(), 0.1, &how, &surface);
+         }},
     });
   }
   CHECK(crt_scene_light_count(scene.get()) == 0);

@@ -115,5 +115,10 @@ Scene {
   CHECK(!folder.has("no.stl"));
   CHECK(run_crt(folder, {"export", "parts.crt", "-o", "a.stl", "--deviation", "0"}).exit_code == 2);
   CHECK(run_crt(folder, {"export", "parts.crt", "-o", "a.cpp", "--deviation", "1"}).exit_code == 1);
+  CHECK(run_crt(folder, {"export", "parts.crt", "-o", "a.stl", "--seconds", "0"}).exit_code == 2);
+  CHECK(run_crt(folder, {"export", "parts.crt", "-o", "a.cpp", "--seconds", "1"}).exit_code == 1);
+  const Outcome short_run = run_crt(folder, {"export", "parts.crt", "-o", "ball.stl", "--entity",
+                                             "2", "--deviation", "1e-4", "--seconds", "1e-9"});
+  CHECK(contains(short_run.err, "could not be proved"));
   CHECK(run_crt(folder, {"export", "parts.crt", "-o", "none/a.stl"}).exit_code == 3);
 }

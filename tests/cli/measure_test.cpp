@@ -105,6 +105,11 @@ TEST_CASE_FIXTURE(Fixture, "the guide shows what is printed of its example") {
   CHECK_MESSAGE(contains(page, "<!-- printed by crt measure plate.crt --section y=6 -->\n```\n" +
                                    section.out + "```\n"),
                 section.out);
+  fs::copy_file(source / "examples/measure/bracket.crt", folder.path() / "bracket.crt");
+  const Outcome masses = run_crt(folder, {"measure", "bracket.crt", "--mass"});
+  CHECK_MESSAGE(contains(page, "<!-- printed by crt measure bracket.crt --mass -->\n```\n" +
+                                   masses.out + "```\n"),
+                masses.out);
 }
 
 TEST_CASE_FIXTURE(Fixture, "only what is asked for is said") {
@@ -130,6 +135,52 @@ TEST_CASE_FIXTURE(Fixture, "a density gives the mass, and the inertia with it") 
   CHECK(holds(ball["inertia"].items[0], 0.4 * 4 * pi));
   CHECK(holds(ball["inertia"].items[3], 0));
   CHECK(holds(json["sum"]["mass"], 4 * pi));
+}
+
+TEST_CASE_FIXTURE(Fixture, "parts of an assembly have the densities of their materials, in kg") {
+  const std::string steel = "steel = Material { density -> 7850 }\n";
+  const std::string parts =
+      "Settings { unit -> \"mm\" }\nScene {\n"
+      "  Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(100, 100, 10) material -> steel }\n"
+      "  Box { cornerA -> vec3(0, 0, 20) cornerB -> vec3(100, 100, 30)\n"
+      "    material -> PrincipledMaterial { density -> 1000 } }\n";
+  folder.write("all.crt", steel + parts + "}\n");
+  const Json json = measured({"all.crt", "--mass"});
+  const Json& plate = json["entities"].items[0];
+  CHECK(plate["density"].number == 7850);
+  CHECK(plate["mass_unit"].string == "kg");
+  CHECK(holds(plate["mass"], 0.785));
+  CHECK(width(plate["mass"]) <= 1e-4);
+  CHECK(holds(json["entities"].items[1]["mass"], 0.1));
+  CHECK(holds(json["sum"]["mass"], 0.885));
+  CHECK(json["sum"]["mass_unit"].string == "kg");
+  CHECK(holds(json["sum"]["centroid"].items[2], (5 * 0.785 + 25 * 0.1) / 0.885));
+  CHECK(contains(run_crt(folder, {"measure", "all.crt", "--mass"}).out, "  mass      0.885"));
+  CHECK(contains(run_crt(folder, {"measure", "all.crt", "--mass"}).out, " kg, between 0.8"));
+
+  // What has no density is weighed by that which is given, and not at all without one.
+  folder.write(
+      "some.crt",
+      steel + parts + "  Box { cornerA -> vec3(0, 0, 40) cornerB -> vec3(1, 1, 41) }\n}\n");
+  const Json some = measured({"some.crt", "--mass"});
+  CHECK(holds(some["entities"].items[2]["mass"], 1));
+  CHECK(!some["entities"].items[2].has("mass_unit"));
+  CHECK(!some["sum"].has("mass"));
+  CHECK(!some["sum"].has("centroid"));
+  const Json given = measured({"some.crt", "--density", "2"});
+  CHECK(holds(given["entities"].items[2]["mass"], 2));
+  CHECK(holds(given["entities"].items[0]["mass"], 0.785));
+  CHECK(holds(given["sum"]["mass"], 2.885));
+  CHECK(!given["sum"].has("mass_unit"));
+
+  folder.write("mixed.crt",
+               steel +
+                   "Scene { Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, 1)"
+                   " material -> steel } + Sphere { center -> vec3(5, 0, 0) radius -> 1"
+                   " material -> Material { density -> 1 } } }\n");
+  CHECK(contains(measured({"mixed.crt", "--mass"})["entities"].items[0]["fault"].string,
+                 "different densities, such as "));
+  CHECK(!measured({"mixed.crt", "--volume"})["entities"].items[0].has("fault"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "numbers have the digits that are sure, and the unit") {

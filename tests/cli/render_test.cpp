@@ -196,3 +196,25 @@ TEST_CASE_FIXTURE(Fixture, "resources are found in the folders that --resources 
   const Outcome run = run_crt(folder, with_library);
   CHECK_MESSAGE(run.exit_code == 0, run.err);
 }
+
+TEST_CASE_FIXTURE(Fixture, "a section cuts the ball open, as a camera that says so") {
+  const auto picture = [&](const std::vector<std::string>& more, const std::string& script) {
+    std::vector<std::string> arguments = {"render", script, "-o", script + ".png",
+                                          "--reproducible"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome run = run_crt(folder, arguments);
+    CHECK_MESSAGE(run.exit_code == 0, run.err);
+    return folder.read(script + ".png");
+  };
+  std::string open_script = ball_script;
+  const std::string pointing = "pointing -> vec3(0, 0, 0) }";
+  open_script.replace(open_script.find(pointing), pointing.size(),
+                      "pointing -> vec3(0, 0, 0) sectionnormal -> vec3(0, 0, -2) "
+                      "sectionoffset -> -0.25 }");
+  folder.write("open.crt", open_script);
+  const std::string whole = picture({}, "ball.crt");
+  const std::string cut = picture({"--section", "0,0,-1=-0.25"}, "ball.crt");
+  CHECK(cut != whole);
+  CHECK(picture({}, "open.crt") == cut);
+  CHECK(run_crt(folder, {"render", "ball.crt", "--section", "w=1"}).exit_code == 2);
+}

@@ -175,3 +175,30 @@ TEST_CASE("nothing is at no distance from anything") {
   CHECK_THROWS_AS(nearest_point(empty_entity(), {0, 0, 0}), Error);
   CHECK_THROWS_AS(nearest_point(Disc{}, {0, 0, 0}), Error);
 }
+
+TEST_CASE("what a distance, a wall or a line takes is counted, for any number of threads alike") {
+  const Entity plate = Entity(Box{.corner_a = {0, 0, 0}, .corner_b = {4, 2, 1}}) -
+                       Entity(Cylinder{.from = {1, 1, -1}, .to = {1, 1, 2}, .radius = 0.5});
+  const Entity ball = Sphere{.center = {8, 1, 0.5}, .radius = 1};
+  std::vector<Vec3> points;
+  for (int i = 0; i < 500; ++i) points.emplace_back(0.01 * i, 3, 0.02 * i);
+  std::vector<NearestPoint> nearest(points.size());
+  const auto work_of = [&](int threads, const auto& ask) {
+    std::uint64_t work = 0;
+    MeasureOptions options{.relative_width = 1e-2, .threads = threads};
+    options.work = [&](std::uint64_t looks) { work += looks; };
+    ask(options);
+    return work;
+  };
+  const auto check_work = [&](const auto& ask) {
+    const std::uint64_t work = work_of(1, ask);
+    CHECK(work > 0);
+    CHECK(work_of(2, ask) == work);
+  };
+  check_work([&](const auto& options) { nearest_points(plate, points, nearest, options); });
+  check_work([&](const auto& options) { clearance(plate, ball, options); });
+  check_work([&](const auto& options) { clearance(plate, plate, options); });
+  check_work([&](const auto& options) { least_wall(plate, {.measure = options}); });
+  check_work([&](const auto& options) { thickness_along(plate, {-1, 1, 0}, {1, 0, 0}, options); });
+  check_work([&](const auto& options) { centroid(plate, options); });
+}

@@ -1,6 +1,9 @@
 """These tests check how much entities are, where they are, and what is in them."""
 
 import math
+import os
+import signal
+import threading
 import unittest
 
 import numpy as np
@@ -55,8 +58,39 @@ class Measures(unittest.TestCase):
         np.testing.assert_allclose(mass.center, (1, 2, 3), atol=1e-3)
         np.testing.assert_allclose(mass.inertia_tensor, 1.6 * volume * np.eye(3), atol=1e-1)
 
+    def test_a_solid_has_the_density_of_its_material(self):
+        self.assertIsNone(PLATE.density)
+        steel = crt.Material(density=7850)
+        self.assertEqual(PLATE.with_material(steel).density, 7850)
+        resin = crt.PrincipledMaterial(density=1150)
+        ball = crt.Sphere((9, 0, 0), 1, material=resin)
+        self.assertEqual(ball.density, 1150)
+        with self.assertRaisesRegex(crt.Error, "different densities"):
+            (ball + PLATE.with_material(steel)).density
+
+    def test_the_centroid_is_that_of_the_mass(self):
+        centroid = PLATE.centroid(1e-4)
+        for number, place in zip(centroid, ((16 - math.pi / 4) / VOLUME, 1, 0.5)):
+            self.assertIn(place, number)
+            self.assertLessEqual(number.width, 2e-4)
+
     def test_time_ends_the_work_with_what_is_known(self):
         self.assertIn(VOLUME, PLATE.volume(1e-12, seconds=1e-9))
+        ball = crt.Sphere((7, 1, 0.5), 1)
+        self.assertGreater(PLATE.clearance(ball, seconds=1e-9).distance.width, 1e-3)
+        self.assertLess(PLATE.least_wall(seconds=1e-9).least.lower, 0.4)
+        self.assertGreater(PLATE.section((0, 0, 1), 0.5, 1e-9, seconds=1e-9).deviation, 1e-9)
+        self.assertEqual(PLATE.tessellate(1e-3, seconds=1e-9).deviation, math.inf)
+        self.assertGreaterEqual(PLATE.distance((7, 1, 0.5), seconds=1e-9).distance, 3)
+
+    def test_ctrl_c_ends_a_search_and_comes_out(self):
+        ring = crt.Torus((0, 0, 0), (1, 2, 3), 2, 0.5)
+        for search in (lambda: ring.tessellate(1e-6), lambda: ring.least_wall(1e-9)):
+            timer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                search()
+            timer.join()
 
     def test_what_is_no_solid_or_has_no_end_is_refused(self):
         with self.assertRaisesRegex(crt.Error, "solid"):

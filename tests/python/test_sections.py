@@ -72,6 +72,13 @@ class Sections(unittest.TestCase):
         with self.assertRaises(crt.Error):
             crt.Plane((0, 0, 0), UP).section(UP, 0, 0.01)
 
+    def test_a_camera_cuts_the_scene_open(self):
+        scene = crt.Scene()
+        scene.entities.append(crt.Sphere((0, 0, 0), 1))
+        scene.camera = crt.Camera(section_normal=(0, 0, -1), section_offset=-0.5)
+        hits = scene.prepare().intersect(crt.rays((0, 0, -5), (0, 0, 1)))
+        self.assertAlmostEqual(float(hits["t"]), 5.5)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -34,7 +34,8 @@ Material stand_in(const PrincipledMaterial& material) {
           .absorption = material.absorption,
           .bump = material.bump,
           .bump_height = material.bump_height,
-          .emission = light != nullptr ? *light : Color{0, 0, 0}};
+          .emission = light != nullptr ? *light : Color{0, 0, 0},
+          .density = material.density};
 }
 
 }  // namespace

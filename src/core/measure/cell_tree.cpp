@@ -1,6 +1,7 @@
 #include "core/measure/cell_tree.hpp"
 
 #include "core/measure/cell_reach.hpp"
+#include "core/measure/measure_clock.hpp"
 
 namespace crt::core {
 
@@ -11,6 +12,7 @@ CellTree::CellTree(const EntityCells& entity) : solids_(entity.solids()) {
 }
 
 void CellTree::add(Cell&& cell, std::uint32_t object) {
+  looks_ += cell.program->leaves.size() + looks_of_cell;
   CellLook look = solids_[object].look(cell);
   if (look.program) cell.program = look.program;
   nodes_.push_back({.cell = std::move(cell), .object = object, .look = std::move(look)});

@@ -2,7 +2,9 @@
 // asked. One thread uses it.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/invalid_index.hpp"
@@ -33,6 +35,9 @@ class CellTree {
   /// Returns a cell of an object, with what is open of its program in the smallest node around it.
   Cell cell(std::uint32_t object, const Bounds& box) const;
   std::size_t size() const { return nodes_.size(); }
+  /// Returns how many looks at leaves there were since it was last asked, with those for the cells
+  /// themselves.
+  std::uint64_t take_looks() { return std::exchange(looks_, 0); }
 
  private:
   void add(Cell&& cell, std::uint32_t object);
@@ -40,6 +45,7 @@ class CellTree {
   std::span<const CellSolid> solids_;
   std::vector<Node> nodes_;
   std::uint32_t root_count_ = 0;
+  std::uint64_t looks_ = 0;
 };
 
 }  // namespace crt::core

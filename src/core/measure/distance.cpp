@@ -55,7 +55,9 @@ class PointSearch {
     std::optional<std::uint32_t> inside;
     for (std::uint32_t i = 0; i < tree_.root_count(); ++i) {
       const CellSolid& solid = entity_.solids()[i];
-      const CellLook look = solid.look(solid.cell({point, point}));
+      const Cell place = solid.cell({point, point});
+      clock_.count(place.program->leaves.size() + tree_.take_looks());
+      const CellLook look = solid.look(place);
       if (look.kind == CellLook::Kind::full) inside = i;
       if (look.is_open()) {
         const double off = distance_rounding * (size_ + largest_component(point));
@@ -75,6 +77,7 @@ class PointSearch {
       tree_.divide(open.node);
       const auto [first, count] =
           std::pair(tree_.node(open.node).first_part, tree_.node(open.node).part_count);
+      clock_.count(tree_.take_looks() + count);
       if (count == 0) search_.leave(open.least);
       for (std::uint32_t i = first; i < first + count; ++i) add(i);
     }
@@ -104,6 +107,7 @@ class PointSearch {
         return;
       }
       tree_.divide(nodes[i]);
+      clock_.count(tree_.take_looks());
       const CellTree::Node& whole = tree_.node(nodes[i]);
       for (std::uint32_t k = 0; k < whole.part_count; ++k) nodes.push_back(whole.first_part + k);
     }
@@ -143,14 +147,18 @@ class PointSearch {
   NearestSearch<OpenNode> search_;
 };
 
+/// To compare two cells takes as long as so many looks at leaves.
+constexpr std::uint64_t looks_of_pair = 8;
+
 class PairSearch {
  public:
-  PairSearch(const EntityCells& a, const EntityCells& b, const MeasureOptions& options)
+  PairSearch(const EntityCells& a, const EntityCells& b, const MeasureOptions& options,
+             MeasureClock& clock)
       : solids_b_(b.solids()),
         a_(a),
         b_(b),
         options_(options),
-        clock_(options),
+        clock_(clock),
         near_a_(a, options, clock_),
         near_b_(b, options, clock_),
         size_(std::min(largest_component(CellFrame(a.bounds()).half),
@@ -175,6 +183,7 @@ class PairSearch {
       tree.divide(number);
       const std::uint32_t first = tree.node(number).first_part;
       const std::uint32_t count = tree.node(number).part_count;
+      clock_.count(tree.take_looks() + looks_of_pair * count);
       if (count == 0) search_.leave(open.least);
       for (std::uint32_t i = first; i < first + count; ++i) {
         if (divides_a) add(i, open.b);
@@ -269,7 +278,7 @@ class PairSearch {
   CellTree a_;
   CellTree b_;
   const MeasureOptions& options_;
-  MeasureClock clock_;
+  MeasureClock& clock_;
   PointSearch near_a_;
   PointSearch near_b_;
   int looks_beside_ = 0;
@@ -280,12 +289,13 @@ class PairSearch {
 
 /// Finds an inner point of a solid, from its largest cells on. What merely touches has none, and is
 /// left after many cells.
-std::optional<Vec3> inner_point(const EntityCells& entity) {
+std::optional<Vec3> inner_point(const EntityCells& entity, MeasureClock& clock) {
   std::vector<std::pair<const CellSolid*, Cell>> cells;
   for (const CellSolid& solid : entity.solids())
     cells.emplace_back(&solid, solid.cell(first_box(solid.bounds())));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  for (std::size_t i = 0; i < cells.size() && !clock.is_over(); ++i) {
     const auto [solid, cell] = cells[i];
+    clock.count(cell.program->leaves.size() + looks_of_cell);
     const CellLook look = solid->look(cell);
     if (look.kind == CellLook::Kind::full) return CellFrame(cell.box).middle;
     if (!look.is_open() || cells.size() >= most_cells_of_search) continue;
@@ -298,9 +308,9 @@ std::optional<Vec3> inner_point(const EntityCells& entity) {
 }
 
 /// Says whether solids that are at no distance overlap.
-void look_for_overlap(const Entity& a, const Entity& b, Clearance& found) {
+void look_for_overlap(const Entity& a, const Entity& b, MeasureClock& clock, Clearance& found) {
   if (found.overlap || found.distance.lower > 0) return;
-  const std::optional<Vec3> common = inner_point(EntityCells(a ^ b));
+  const std::optional<Vec3> common = inner_point(EntityCells(a ^ b), clock);
   if (common) found = {.distance = {0, 0}, .on_a = *common, .on_b = *common, .overlap = true};
 }
 
@@ -328,6 +338,7 @@ void nearest_points(const Entity& entity, std::span<const Vec3> points,
                        for (std::size_t i = begin; i < end; ++i)
                          nearest[i] = search.find(points[i]);
                      });
+    clock.count(0);
   });
 }
 
@@ -345,8 +356,9 @@ Clearance clearance(const Entity& a, const Entity& b, const MeasureOptions& opti
     cells_a.check_bounded();
     cells_b.check_bounded();
     if (!cells_a.has_points() || !cells_b.has_points()) core::throw_no_points();
-    Clearance found = core::PairSearch(cells_a, cells_b, options).run();
-    core::look_for_overlap(a, b, found);
+    core::MeasureClock clock(options);
+    Clearance found = core::PairSearch(cells_a, cells_b, options, clock).run();
+    core::look_for_overlap(a, b, clock, found);
     return found;
   });
 }
@@ -354,8 +366,9 @@ Clearance clearance(const Entity& a, const Entity& b, const MeasureOptions& opti
 std::vector<Overlap> interference(std::span<const Entity> entities, const MeasureOptions& options) {
   core::validate(options);
   std::vector<BoundingBox> boxes;
-  for (const Entity& entity : entities)
-    boxes.push_back(tight_bounding_box(entity, {.relative_width = 1e-3}));
+  MeasureOptions rough = options;
+  rough.relative_width = 1e-3;
+  for (const Entity& entity : entities) boxes.push_back(tight_bounding_box(entity, rough));
   std::vector<Overlap> overlaps;
   const auto touch = [&](std::size_t i, std::size_t j) {
     return core::Bounds{boxes[i].lower, boxes[i].upper}.touches({boxes[j].lower, boxes[j].upper});

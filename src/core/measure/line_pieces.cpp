@@ -77,7 +77,7 @@ void check_line(const Vec3& origin, const Vec3& direction) {
 }
 
 std::vector<LinePiece> pieces_in(const EntityCells& cells, const Vec3& origin,
-                                 const Vec3& direction) {
+                                 const Vec3& direction, MeasureClock& clock) {
   const SolidLine line(origin, direction);
   std::vector<LinePiece> pieces;
   for (const CellSolid& solid : cells.solids()) {
@@ -86,7 +86,9 @@ std::vector<LinePiece> pieces_in(const EntityCells& cells, const Vec3& origin,
     const Vec3 way = frame.middle - origin;
     const double nearest = glm::dot(way, unit_vector(direction));
     const double reach = 1.001 * glm::length(frame.half) + 0x1p-40 * glm::length(way);
-    PieceMaker(line, pieces).take(runs_of_line(solid, line, nearest - reach, nearest + reach));
+    clock.is_over();  // it may be cancelled, but time alone does not end it
+    PieceMaker(line, pieces)
+        .take(runs_of_line(solid, line, nearest - reach, nearest + reach, clock));
   }
   // None is within another, as the solids do not touch.
   std::ranges::sort(pieces, {}, [](const LinePiece& piece) { return piece.from.lower; });
@@ -98,12 +100,14 @@ std::vector<LinePiece> pieces_in(const EntityCells& cells, const Vec3& origin,
 }  // namespace core
 
 std::vector<LinePiece> thickness_along(const Entity& entity, const Vec3& origin,
-                                       const Vec3& direction) {
+                                       const Vec3& direction, const MeasureOptions& options) {
+  core::validate(options);
   core::check_line(origin, direction);
   return core::measured([&] {
     const core::EntityCells cells(entity);
     cells.check_bounded();
-    return core::pieces_in(cells, origin, direction);
+    core::MeasureClock clock(options);
+    return core::pieces_in(cells, origin, direction, clock);
   });
 }
 

@@ -24,9 +24,10 @@ LineRun::Kind kind_of(const CellLook& look) {
 class LineDivision {
  public:
   LineDivision(const CellSolid& solid, const SolidLine& line, double from, double to,
-               double shortest)
+               MeasureClock& clock, double shortest)
       : solid_(solid),
         line_(line),
+        clock_(clock),
         resolution_(std::max(shortest, line.resolution(std::max(-from, to)))) {
     add(from, to, solid.cell(line.box(from, to)).program);
   }
@@ -55,6 +56,7 @@ class LineDivision {
  private:
   void add(double from, double to, const std::shared_ptr<const OpenProgram>& program) {
     ++boxes_;
+    clock_.count(program->leaves.size() + looks_of_cell);
     const CellLook look = solid_.look({line_.box(from, to), program});
     append(
         {{.from = from, .to = to, .kind = kind_of(look)}, look.program ? look.program : program});
@@ -82,6 +84,7 @@ class LineDivision {
 
   const CellSolid& solid_;
   const SolidLine& line_;
+  MeasureClock& clock_;
   double resolution_;
   std::size_t boxes_ = 0;
   std::vector<OpenRun> runs_;
@@ -129,8 +132,8 @@ double SolidLine::resolution(double distance) const {
 }
 
 std::vector<LineRun> runs_of_line(const CellSolid& solid, const SolidLine& line, double from,
-                                  double to, double shortest) {
-  return LineDivision(solid, line, from, to, shortest).divide();
+                                  double to, MeasureClock& clock, double shortest) {
+  return LineDivision(solid, line, from, to, clock, shortest).divide();
 }
 
 }  // namespace crt::core

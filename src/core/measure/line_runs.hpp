@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/measure/measure_clock.hpp"
 #include "core/measure/solid_cells.hpp"
 
 namespace crt::core {
@@ -39,8 +40,8 @@ struct LineRun {
 
 /// Returns all runs between two distances, in order, each of another kind than the next. What is
 /// open is divided until it is as short as is wanted, which is no less than rounding lets it be, or
-/// until there are very many parts, as where a line is in a face.
+/// until there are very many parts, as where a line is in a face. The clock counts looks.
 std::vector<LineRun> runs_of_line(const CellSolid& solid, const SolidLine& line, double from,
-                                  double to, double shortest = 0);
+                                  double to, MeasureClock& clock, double shortest = 0);
 
 }  // namespace crt::core

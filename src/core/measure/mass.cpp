@@ -32,7 +32,10 @@ struct OpenCell {
 struct Wanted {
   bool volume = true;
   bool area = true;
-  bool moments = true;
+  bool centroid = true;
+  bool inertia = true;
+
+  bool moments() const { return centroid || inertia; }
 };
 
 class MassSearch {
@@ -43,7 +46,7 @@ class MassSearch {
     const CellFrame frame(entity.bounds());
     const Vec3& half = frame.half;
     question_ = {.reference = frame.middle,
-                 .with_moments = wanted.moments,
+                 .with_moments = wanted.moments(),
                  .with_area = wanted.area,
                  .area_tolerance = options.relative_width};
     size_ = largest_component(half);
@@ -78,8 +81,6 @@ class MassSearch {
  private:
   static constexpr std::size_t most_cells = std::size_t{1} << 20;
   static constexpr std::size_t cells_of_task = 32;
-  /// What is found of a cell takes as long as so many looks at a leaf.
-  static constexpr std::uint64_t looks_of_cell = 4;
   /// Time is looked at after so many.
   static constexpr std::size_t cells_of_round = std::size_t{1} << 13;
 
@@ -106,16 +107,16 @@ class MassSearch {
     // Rounding leaves so much open of what is in the box.
     constexpr double floor = 0x1p-46;
     const double volume = std::max(most.volume.hi, floor * box_volume_);
-    if (wanted_.volume || wanted_.moments) count(part.volume, volume);
+    if (wanted_.volume || wanted_.moments()) count(part.volume, volume);
     if (wanted_.area) {
       const double area = std::max(most.area.lo, floor * size_ * size_);
       if (part.area.hi == infinity) return infinity;
       count(part.area, area);
     }
-    if (wanted_.moments) {
+    if (wanted_.moments())
       for (const Interval& number : part.first) count(number, volume * size_);
+    if (wanted_.inertia)
       for (const Interval& number : part.second) count(number, volume * size_ * size_);
-    }
     return share;
   }
   void score(std::vector<OpenCell>& cells, const MassPart& all) const {
@@ -216,15 +217,29 @@ class MassSearch {
   MassPart done_;
 };
 
-MassPart mass_of_entity(const Entity& entity, const Wanted& wanted, const MeasureOptions& options,
-                        Vec3& reference) {
+/// A FoundMass has what was found of an entity, relative to a point.
+struct FoundMass {
+  MassPart part;
+  Vec3 reference{0, 0, 0};
+
+  /// Returns the centroid relative to that point.
+  std::array<Interval, 3> center() const {
+    std::array<Interval, 3> center;
+    for (std::size_t i = 0; i < 3; ++i)
+      center[i] = part.volume.lo > 0 ? part.first[i] / part.volume : Interval::everything();
+    return center;
+  }
+};
+
+FoundMass mass_of_entity(const Entity& entity, const Wanted& wanted,
+                         const MeasureOptions& options) {
   validate(options);
   return measured([&] {
     const EntityCells cells(entity);
     cells.check_bounded();
     MassSearch search(cells, wanted, options);
-    reference = search.question().reference;
-    return search.run();
+    const Vec3 reference = search.question().reference;
+    return FoundMass{search.run(), reference};
   });
 }
 
@@ -232,36 +247,41 @@ crt::Interval answer(const Interval& number) {
   return {number.lo, number.hi};
 }
 
+std::array<crt::Interval, 3> centroid_of(const FoundMass& found) {
+  const std::array<Interval, 3> center = found.center();
+  std::array<crt::Interval, 3> centroid;
+  for (std::size_t i = 0; i < 3; ++i)
+    centroid[i] = answer(center[i] + Interval::of(found.reference[static_cast<int>(i)]));
+  return centroid;
+}
+
 }  // namespace
 
 }  // namespace core
 
 Interval volume(const Entity& entity, const MeasureOptions& options) {
-  Vec3 reference;
-  return core::answer(core::mass_of_entity(entity,
-                                           {.volume = true, .area = false, .moments = false},
-                                           options, reference)
-                          .volume);
+  constexpr core::Wanted wanted{.area = false, .centroid = false, .inertia = false};
+  return core::answer(core::mass_of_entity(entity, wanted, options).part.volume);
 }
 
 Interval surface_area(const Entity& entity, const MeasureOptions& options) {
-  Vec3 reference;
-  return core::answer(core::mass_of_entity(entity,
-                                           {.volume = false, .area = true, .moments = false},
-                                           options, reference)
-                          .area);
+  constexpr core::Wanted wanted{.volume = false, .centroid = false, .inertia = false};
+  return core::answer(core::mass_of_entity(entity, wanted, options).part.area);
+}
+
+std::array<Interval, 3> centroid(const Entity& entity, const MeasureOptions& options) {
+  constexpr core::Wanted wanted{.volume = false, .area = false, .inertia = false};
+  return core::centroid_of(core::mass_of_entity(entity, wanted, options));
 }
 
 MassProperties mass_properties(const Entity& entity, const MeasureOptions& options) {
   using core::answer;
-  Vec3 reference{0, 0, 0};
-  const core::MassPart part = core::mass_of_entity(entity, {}, options, reference);
-  MassProperties result{.volume = answer(part.volume), .area = answer(part.area)};
-  std::array<core::Interval, 3> center;
-  for (std::size_t i = 0; i < 3; ++i) {
-    center[i] = part.volume.lo > 0 ? part.first[i] / part.volume : core::Interval::everything();
-    result.centroid[i] = answer(center[i] + core::Interval::of(reference[static_cast<int>(i)]));
-  }
+  const core::FoundMass found = core::mass_of_entity(entity, {}, options);
+  const core::MassPart& part = found.part;
+  const std::array<core::Interval, 3> center = found.center();
+  MassProperties result{.volume = answer(part.volume),
+                        .area = answer(part.area),
+                        .centroid = core::centroid_of(found)};
   // By Steiner's theorem.
   const auto about_center = [&](std::size_t k, std::size_t i, std::size_t j) {
     return part.second[k] - center[i] * part.first[j];

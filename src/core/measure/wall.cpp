@@ -55,7 +55,8 @@ struct Chord {
 /// Finds chords of one solid that are walls.
 class ChordFinder {
  public:
-  ChordFinder(const CellSolid& solid, const WallAngle& angle) : solid_(solid), angle_(angle) {}
+  ChordFinder(const CellSolid& solid, const WallAngle& angle, MeasureClock& clock)
+      : solid_(solid), angle_(angle), clock_(clock) {}
 
   /// Returns the wall that begins near a place on a face, unless it is longer than `most`.
   std::optional<Chord> find(const CellFace& face, bool is_turned, const Vec3& near,
@@ -80,7 +81,7 @@ class ChordFinder {
     const SolidLine line(place, direction);
     const double outside = 0x1p-20 * most;
     const std::vector<LineRun> runs =
-        runs_of_line(solid_, line, -outside, most, ends_of_chords * most);
+        runs_of_line(solid_, line, -outside, most, clock_, ends_of_chords * most);
     for (std::size_t i = 1; i + 1 < runs.size(); ++i) {
       if (runs[i].kind != LineRun::Kind::full) continue;
       const LineRun& first = runs[i - 1];
@@ -114,6 +115,7 @@ class ChordFinder {
 
   const CellSolid& solid_;
   WallAngle angle_;
+  MeasureClock& clock_;
 };
 
 class WallSearch {
@@ -161,6 +163,7 @@ class WallSearch {
     tree_.divide(number);
     const std::uint32_t first = tree_.node(number).first_part;
     const std::uint32_t count = tree_.node(number).part_count;
+    clock_.count(tree_.take_looks() + count);
     if (count == 0) search_.leave(open.least);
     for (std::uint32_t i = first; i < first + count; ++i) {
       if (open.a != open.b) add(i, other);
@@ -220,7 +223,7 @@ class WallSearch {
   void look_for_chord(const OpenPair& open) {
     for (const std::uint32_t number : {open.a, open.b}) {
       const CellTree::Node& node = tree_.node(number);
-      const ChordFinder finder(solids_[node.object], angle_);
+      const ChordFinder finder(solids_[node.object], angle_, clock_);
       const CellFrame frame(node.cell.box);
       for (const WallFace& face : faces_of(number)) {
         // A face of a cell is asked once, and its parts are asked when the cell is divided.

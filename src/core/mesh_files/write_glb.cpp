@@ -21,20 +21,6 @@ constexpr int unsigned_numbers = 5125;
 constexpr int array_buffer = 34962;
 constexpr int element_buffer = 34963;
 
-double metres_of(Unit unit) {
-  switch (unit) {
-    case Unit::m:
-      return 1;
-    case Unit::cm:
-      return 0.01;
-    case Unit::mm:
-      return 0.001;
-    case Unit::in:
-      break;
-  }
-  return 0.0254;
-}
-
 std::string json_text(std::string_view text) {
   std::string quoted = "\"";
   for (const char letter : text) {

@@ -15,6 +15,7 @@
 #include "core/shading/texture.hpp"
 #include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
+#include "crt/section.hpp"
 #include "crt/validate.hpp"
 #include "text/format.hpp"
 
@@ -357,6 +358,13 @@ const std::vector<std::string>& PreparedScene::warnings() const {
 
 PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
   const core::FloatEnvironment ieee;
+  if (has_section(scene.camera)) {
+    const Camera& camera = scene.camera;
+    validate(camera);
+    return prepare(
+        sectioned(scene, camera.section_normal, camera.section_offset, camera.section_hatch),
+        options);
+  }
   core::StopCheck stop(options.go_on, "preparing the scene");
   const core::Workers workers(0, options.go_on ? &stop : nullptr);
   return PreparedScene(std::make_shared<const core::PreparedData>(scene, options, workers));

@@ -4,23 +4,12 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/bounds.hpp"
-#include "core/math/vector.hpp"
+#include "core/math/drawing_axes.hpp"
 #include "crt/error.hpp"
 
 namespace crt::core {
 
 namespace {
-
-/// Returns a direction of length 1. Coordinate axes come out exactly.
-Vec3 unit_normal(const Vec3& normal) {
-  if (!Bounds{normal, normal}.finite())
-    throw Error(ErrorCode::invalid_argument, "the normal must be finite", "normal");
-  const double largest = largest_component(normal);
-  if (!(largest > 0))
-    throw Error(ErrorCode::invalid_argument, "the normal must have a length above 0", "normal");
-  const Vec3 scaled = normal * inverse_of_power(power_of_two_below(largest));
-  return scaled / glm::length(scaled);
-}
 
 /// Returns the place of the one component that is not 0, or -1.
 int only_axis(const Vec3& direction) {
@@ -31,21 +20,6 @@ int only_axis(const Vec3& direction) {
     axis = i;
   }
   return axis;
-}
-
-/// Returns the frame in which y of the world, or z for a plane across it, is upwards. The world is
-/// left-handed: who looks against the normal has x to the right.
-SectionFrame frame_of(const Vec3& normal, double offset) {
-  SectionFrame frame{.origin = normal * offset, .normal = normal};
-  if (normal.x == 0 && normal.z == 0) {
-    frame.x_axis = {1, 0, 0};
-    frame.y_axis = {0, 0, normal.y > 0 ? 1.0 : -1.0};
-    return frame;
-  }
-  const double length = std::sqrt(normal.x * normal.x + normal.z * normal.z);
-  frame.x_axis = Vec3(0 - normal.z, 0, normal.x) / length;
-  frame.y_axis = glm::cross(frame.x_axis, normal);
-  return frame;
 }
 
 }  // namespace
@@ -60,8 +34,12 @@ SectionPlane section_plane(const Vec3& normal, double offset, Entity& entity) {
   if (!std::isfinite(offset))
     throw Error(ErrorCode::invalid_argument, "the offset must be finite", "offset");
   const Vec3 unit = unit_normal(normal);
-  SectionPlane plane{.frame = frame_of(unit, offset)};
-  plane.frame.offset = offset;
+  const DrawingAxes axes = axes_across(unit);
+  SectionPlane plane{.frame = {.origin = unit * offset,
+                               .x_axis = axes.x,
+                               .y_axis = axes.y,
+                               .normal = unit,
+                               .offset = offset}};
   const int axis = only_axis(unit);
   if (axis >= 0) {
     plane.across = axis;
