@@ -255,6 +255,25 @@ TEST_CASE("what is made of triangles has these, wherever it is") {
   }
 }
 
+TEST_CASE("parts that touch but for rounding are one, and that is not called proved") {
+  // The bore's arcs have a radius that is not that of the pin to the last bit.
+  const double radius = 0.15;
+  const double along = radius * std::cos(0.7);
+  const double aside = radius * std::sin(0.7);
+  const double half = std::tan(std::acos(-1.0) / 4);
+  const Contour bore = {{.x = along, .y = aside, .bulge = half},
+                        {.x = -along, .y = -aside, .bulge = half}};
+  const Contour outline = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const Entity plate =
+      Extrusion{.profile = make_profile(std::vector<Contour>{outline, bore}), .to = 0.4};
+  const Entity pin = Cylinder{.from = {0, 0, 0}, .to = {0, 0, 0.7}, .radius = radius};
+  const SurfaceMesh mesh = tessellate(plate + pin, 1e-3);
+  CHECK(is_closed(mesh));
+  CHECK(euler_number(mesh) == 2);
+  CHECK(mesh.triangles.size() < 400);
+  CHECK(mesh.deviation == infinite);
+}
+
 TEST_CASE("outlines of many flat arcs that go over into one another take few triangles") {
   // A ring whose radius goes to and fro, of arcs with the same tangents where they meet.
   constexpr int steps = 64;

@@ -18,6 +18,10 @@ EntityCells::EntityCells(const Entity& entity) {
   }
 }
 
+void EntityCells::unite_near_faces() {
+  for (CellSolid& solid : solids_) solid.unite_near_faces();
+}
+
 void EntityCells::check_bounded() const {
   if (!solids_.empty() && !bounds_.finite())
     throw Error(ErrorCode::invalid_argument, "the solid has no box around it: it is infinite");

@@ -17,6 +17,9 @@ class EntityCells {
   /// Throws Error (invalid_argument) for an entity that is no solid, and as compile() does.
   explicit EntityCells(const Entity& entity);
 
+  /// See CellSolid::unite_near_faces().
+  void unite_near_faces();
+
   /// Returns its objects, none of which touches another.
   std::span<const CellSolid> solids() const { return solids_; }
   /// Returns a box around all of it, which may be infinite, or empty.

@@ -251,6 +251,31 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
   return work.is_any ? outside : inside;
 }
 
+bool CellSolid::are_near(const CellFace& one, const CellFace& other, const Bounds& box) const {
+  constexpr double rounding = 0x1p-40;
+  const double near = rounding * bounds_.farthest();
+  const Vec3 of_one = middle_of(one.slopes);
+  const Vec3 of_other = middle_of(other.slopes);
+  const double sign = glm::dot(of_one, of_other) < 0 ? -1 : 1;
+  const auto are_at = [&](double value, const Vec3& slope, double other_value,
+                          const Vec3& other_slope) {
+    return std::abs(value / glm::length(slope) - sign * other_value / glm::length(other_slope)) <=
+           near;
+  };
+  if (!are_at(one.value, of_one, other.value, of_other)) return false;
+  for (unsigned i = 0; i < 8; ++i) {
+    Vec3 corner = box.lower;
+    for (int axis = 0; axis < 3; ++axis)
+      if (((i >> axis) & 1U) != 0) corner[axis] = box.upper[axis];
+    const std::array<Jet, 3> place = jets_of(known_point(corner));
+    const Jet a = value(one, place);
+    const Jet b = value(other, place);
+    if (!are_at(a.value.middle(), middle_of(a.slope), b.value.middle(), middle_of(b.slope)))
+      return false;
+  }
+  return true;
+}
+
 CellLook CellSolid::look_at_part(const CellLook& look, const Bounds& part) const {
   CellLook result = look;
   result.faces.clear();
@@ -298,12 +323,23 @@ CellLook CellSolid::look(const Cell& cell) const {
           {.leaf = program.leaves[i].leaf, .surface = unknown_surface, .error = infinity}};
     }
     for (const CellFace& face : work.faces) {
-      const auto found = face.surface == unknown_surface
-                             ? look.faces.end()
-                             : std::ranges::find(look.faces, face.surface, &CellFace::surface);
+      auto found = face.surface == unknown_surface
+                       ? look.faces.end()
+                       : std::ranges::find(look.faces, face.surface, &CellFace::surface);
+      bool is_flipped = found != look.faces.end() && found->flipped != face.flipped;
+      if (found == look.faces.end() && has_united_ != nullptr && face.is_surface &&
+          face.surface != unknown_surface) {
+        found = std::ranges::find_if(look.faces, [&](const CellFace& other) {
+          return other.leaf != face.leaf && other.is_surface && are_near(other, face, cell.box);
+        });
+        if (found != look.faces.end()) {
+          *has_united_ = true;
+          is_flipped = glm::dot(middle_of(found->slopes), middle_of(face.slopes)) < 0;
+        }
+      }
       near.push_back({.leaf = i,
                       .number = static_cast<std::size_t>(found - look.faces.begin()),
-                      .flipped = found != look.faces.end() && found->flipped != face.flipped});
+                      .flipped = is_flipped});
       if (found == look.faces.end()) look.faces.push_back(face);
     }
   }

@@ -6,6 +6,7 @@
 // once, and not by ever smaller cells.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -75,6 +76,12 @@ class CellSolid {
   /// The scene must outlive it.
   CellSolid(const CompiledScene& scene, const SceneObject& object);
 
+  /// Lets faces be one in a cell where only rounding tells them apart. Then a gap between parts
+  /// that were meant to touch is no part of the surface.
+  void unite_near_faces() { has_united_ = std::make_unique<std::atomic<bool>>(false); }
+  /// Returns whether there were such faces in a cell that was looked at.
+  bool has_united_faces() const { return has_united_ != nullptr && *has_united_; }
+
   const Bounds& bounds() const { return bounds_; }
   /// Returns a cell of which nothing is known.
   Cell cell(const Bounds& box) const { return {box, program_}; }
@@ -108,6 +115,8 @@ class CellSolid {
   };
   struct Workspace;
 
+  /// Returns whether faces are so near to each other in a cell that rounding may be all between.
+  bool are_near(const CellFace& one, const CellFace& other, const Bounds& box) const;
   LeafValue look_at(const CellLeaf& leaf, const Cell& cell, const CellFrame& frame,
                     Workspace& work) const;
 
@@ -115,6 +124,7 @@ class CellSolid {
   std::vector<CellLeaf> leaves_;
   std::shared_ptr<const OpenProgram> program_;
   Bounds bounds_;
+  std::unique_ptr<std::atomic<bool>> has_united_;
 };
 
 /// Returns the coordinates of a cell as intervals.

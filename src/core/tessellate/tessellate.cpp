@@ -220,8 +220,9 @@ SurfaceMesh tessellate(const Entity& entity, double deviation, const MeasureOpti
     throw Error(ErrorCode::invalid_argument, "deviation must be above 0 and finite", "deviation");
   core::validate(options);
   return core::measured([&] {
-    const core::EntityCells cells(entity);
+    core::EntityCells cells(entity);
     cells.check_bounded();
+    cells.unite_near_faces();
     core::MeasureClock clock(options);
     SurfaceMesh result;
     result.deviation = deviation;
@@ -229,7 +230,7 @@ SurfaceMesh tessellate(const Entity& entity, double deviation, const MeasureOpti
       core::DualMesh mesh = core::own_mesh_of(solid, deviation);
       if (mesh.triangles.empty()) {
         core::Tessellation tessellation(solid, deviation, clock);
-        if (!tessellation.run()) result.deviation = core::infinity;
+        if (!tessellation.run() || solid.has_united_faces()) result.deviation = core::infinity;
         mesh = tessellation.mesh();
       }
       const auto first = static_cast<std::uint32_t>(result.positions.size());
