@@ -330,7 +330,7 @@ CellLook CellSolid::look(const Cell& cell) const {
       if (found == look.faces.end() && has_united_ != nullptr && face.is_surface &&
           face.surface != unknown_surface) {
         found = std::ranges::find_if(look.faces, [&](const CellFace& other) {
-          return other.leaf != face.leaf && other.is_surface && are_near(other, face, cell.box);
+          return other.is_surface && are_near(other, face, cell.box);
         });
         if (found != look.faces.end()) {
           *has_united_ = true;
