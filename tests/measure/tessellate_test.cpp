@@ -263,9 +263,9 @@ TEST_CASE("parts that touch but for rounding are one, and that is not called pro
   const double half = std::tan(std::acos(-1.0) / 4);
   const Contour bore = {{.x = along, .y = aside, .bulge = half},
                         {.x = -along, .y = -aside, .bulge = half}};
-  const Contour outline = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const Contour square = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   const Entity plate =
-      Extrusion{.profile = make_profile(std::vector<Contour>{outline, bore}), .to = 0.4};
+      Extrusion{.profile = make_profile(std::vector<Contour>{square, bore}), .to = 0.4};
   const Entity pin = Cylinder{.from = {0, 0, 0}, .to = {0, 0, 0.7}, .radius = radius};
   const SurfaceMesh mesh = tessellate(plate + pin, 1e-3);
   CHECK(is_closed(mesh));
@@ -274,7 +274,7 @@ TEST_CASE("parts that touch but for rounding are one, and that is not called pro
   CHECK(mesh.deviation == infinite);
 }
 
-TEST_CASE("outlines of many flat arcs that go over into one another take few triangles") {
+TEST_CASE("contours of many flat arcs that go over into one another take few triangles") {
   // A ring whose radius goes to and fro, of arcs with the same tangents where they meet.
   constexpr int steps = 64;
   const auto place = [](int i) {
@@ -282,10 +282,10 @@ TEST_CASE("outlines of many flat arcs that go over into one another take few tri
     const double radius = 1 + 0.04 * std::cos(5 * angle);
     return std::pair(radius * std::cos(angle), radius * std::sin(angle));
   };
-  Contour outline;
+  Contour ring;
   for (int i = 0; i < steps; ++i)
-    outline.push_back({.x = place(i).first, .y = place(i).second, .bulge = std::tan(0.02)});
-  const Entity solid = Extrusion{.profile = make_profile(std::vector<Contour>{outline}), .to = 0.2};
+    ring.push_back({.x = place(i).first, .y = place(i).second, .bulge = std::tan(0.02)});
+  const Entity solid = Extrusion{.profile = make_profile(std::vector<Contour>{ring}), .to = 0.2};
   const SurfaceMesh mesh = tessellate(solid, 0.004);
   CHECK(is_closed(mesh));
   CHECK(mesh.deviation == 0.004);
