@@ -275,12 +275,12 @@ void Profile::find_circles() {
   }
 }
 
-Bounds Profile::bounds_of(std::uint32_t number) const {
-  const Piece& piece = pieces_[number];
+Bounds Profile::bounds_of(std::uint32_t piece) const {
+  const Piece& chord = pieces_[piece];
   Bounds box;
-  box.include(piece.from);
-  box.include(piece.to);
-  if (piece.arc != invalid_index) box.include(bounds_of_arc(piece, arcs_[piece.arc]));
+  box.include(chord.from);
+  box.include(chord.to);
+  if (chord.arc != invalid_index) box.include(bounds_of_arc(chord, arcs_[chord.arc]));
   return box;
 }
 
