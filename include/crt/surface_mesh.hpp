@@ -41,9 +41,9 @@ struct SurfaceMesh {
 /// and on any machine, unless time ends the search. That also ends after about a million boxes.
 /// Then the mesh is as good as it is, and its deviation infinite. So it is where surfaces touch
 /// without crossing, or where nothing is known of them, as of Custom shapes. So it is, too, where
-/// faces are apart by no more than 1e-12 of the coordinates: they are taken as one. A Mesh or
-/// HeightField by itself has its own triangles, if each is known to face out of the solid or into
-/// it. Throws Error as volume() does. Any thread may call it.
+/// a gap or a film is no thicker than 1e-12 of the coordinates: the faces beside it are taken as
+/// one. A Mesh or HeightField by itself has its own triangles, if each is known to face out of the
+/// solid or into it. Throws Error as volume() does. Any thread may call it.
 SurfaceMesh tessellate(const Entity& entity, double deviation, const MeasureOptions& options = {});
 
 /// Returns a deviation that fits the size of solids: a thousandth of the longest side of the box

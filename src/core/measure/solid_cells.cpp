@@ -252,6 +252,9 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
 }
 
 bool CellSolid::are_near(const CellFace& one, const CellFace& other, const Bounds& box) const {
+  // In a small cell all that touches is near.
+  constexpr double small = 0x1p-16;
+  if (!(largest_component(box.upper - box.lower) > small * bounds_.farthest())) return false;
   constexpr double rounding = 0x1p-40;
   const double near = rounding * bounds_.farthest();
   const Vec3 of_one = middle_of(one.slopes);
@@ -305,6 +308,23 @@ CellLook CellSolid::look_at_part(const CellLook& look, const Bounds& part) const
 }
 
 CellLook CellSolid::look(const Cell& cell) const {
+  if (has_united_ == nullptr) return look(cell, nullptr);
+  std::vector<UnitedFaces> united;
+  const CellLook result = look(cell, &united);
+  if (united.empty() || *has_united_) return result;
+  // Faces that go on as one are near enough. They may also be gone, with what was between.
+  const CellLook apart = look(cell, nullptr);
+  const auto shows = [](const CellLook& some, const UnitedFaces& faces) {
+    return std::ranges::any_of(some.faces, [&](const CellFace& face) {
+      return face.surface == faces.one || face.surface == faces.other;
+    });
+  };
+  for (const UnitedFaces& faces : united)
+    if (shows(apart, faces) && !shows(result, faces)) *has_united_ = true;
+  return result;
+}
+
+CellLook CellSolid::look(const Cell& cell, std::vector<UnitedFaces>* united) const {
   CellLook look;
   const OpenProgram& program = *cell.program;
   const CellFrame frame(cell.box);
@@ -327,13 +347,13 @@ CellLook CellSolid::look(const Cell& cell) const {
                        ? look.faces.end()
                        : std::ranges::find(look.faces, face.surface, &CellFace::surface);
       bool is_flipped = found != look.faces.end() && found->flipped != face.flipped;
-      if (found == look.faces.end() && has_united_ != nullptr && face.is_surface &&
+      if (found == look.faces.end() && united != nullptr && face.is_surface &&
           face.surface != unknown_surface) {
         found = std::ranges::find_if(look.faces, [&](const CellFace& other) {
           return other.is_surface && are_near(other, face, cell.box);
         });
         if (found != look.faces.end()) {
-          *has_united_ = true;
+          united->push_back({found->surface, face.surface});
           is_flipped = glm::dot(middle_of(found->slopes), middle_of(face.slopes)) < 0;
         }
       }

@@ -79,7 +79,7 @@ class CellSolid {
   /// Lets faces be one in a cell where only rounding tells them apart. Then a gap between parts
   /// that were meant to touch is no part of the surface.
   void unite_near_faces() { has_united_ = std::make_unique<std::atomic<bool>>(false); }
-  /// Returns whether there were such faces in a cell that was looked at.
+  /// Returns whether there was such a gap in a cell that was looked at.
   bool has_united_faces() const { return has_united_ != nullptr && *has_united_; }
 
   const Bounds& bounds() const { return bounds_; }
@@ -115,6 +115,14 @@ class CellSolid {
   };
   struct Workspace;
 
+  /// UnitedFaces are two surfaces that are one in a cell.
+  struct UnitedFaces {
+    std::uint64_t one;
+    std::uint64_t other;
+  };
+
+  /// Looks at a cell, and unites near faces if those are asked for.
+  CellLook look(const Cell& cell, std::vector<UnitedFaces>* united) const;
   /// Returns whether faces are so near to each other in a cell that rounding may be all between.
   bool are_near(const CellFace& one, const CellFace& other, const Bounds& box) const;
   LeafValue look_at(const CellLeaf& leaf, const Cell& cell, const CellFrame& frame,
