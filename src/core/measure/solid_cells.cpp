@@ -310,7 +310,7 @@ CellLook CellSolid::look_at_part(const CellLook& look, const Bounds& part) const
 CellLook CellSolid::look(const Cell& cell) const {
   if (has_united_ == nullptr) return look(cell, nullptr);
   std::vector<UnitedFaces> united;
-  const CellLook result = look(cell, &united);
+  CellLook result = look(cell, &united);
   if (united.empty() || *has_united_) return result;
   // Faces that go on as one are near enough. They may also be gone, with what was between.
   const CellLook apart = look(cell, nullptr);
