@@ -51,23 +51,6 @@ MeasureOptions to_measure_options(double relative_width, double seconds) {
           .seconds = has_end ? seconds : std::numeric_limits<double>::infinity()};
 }
 
-void give_distances(const crt_entity* entity, const double* points, std::size_t stride,
-                    std::size_t count, double* signed_distance, double* nearest,
-                    std::size_t nearest_stride, const MeasureOptions& options) {
-  require(entity, "entity");
-  const std::vector<Vec3> questions = to_points(points, stride, count);
-  if (count > 0) require(signed_distance, "signed_distance");
-  const bool wants_points = nearest != nullptr && count > 0;
-  const Places<std::byte> places(reinterpret_cast<std::byte*>(nearest), nearest_stride,
-                                 sizeof(Vec3), wants_points ? count : 0, "nearest");
-  std::vector<NearestPoint> answers(count);
-  nearest_points(entity->value, questions, answers, options);
-  for (std::size_t i = 0; i < count; ++i) {
-    signed_distance[i] = answers[i].signed_distance();
-    if (wants_points) std::memcpy(places[i], &answers[i].point, sizeof(Vec3));
-  }
-}
-
 crt_interval c_interval(const Interval& interval) {
   return {.lower = interval.lower, .upper = interval.upper};
 }
@@ -228,9 +211,8 @@ crt_status crt_entity_contains(crt_entity* entity, const double* points, size_t 
 crt_status crt_entity_distance(crt_entity* entity, const double* points, size_t stride,
                                size_t count, double* signed_distance, double* nearest,
                                size_t nearest_stride) {
-  return guarded([&] {
-    give_distances(entity, points, stride, count, signed_distance, nearest, nearest_stride, {});
-  });
+  return crt_entity_distance_with(entity, nullptr, points, stride, count, signed_distance, nearest,
+                                  nearest_stride);
 }
 
 crt_status crt_entity_distance_with(crt_entity* entity, const crt_measure_options* options,
@@ -238,8 +220,19 @@ crt_status crt_entity_distance_with(crt_entity* entity, const crt_measure_option
                                     double* signed_distance, double* nearest,
                                     size_t nearest_stride) {
   return guarded_with_cancel([&](const CancelValue& cancel_value) {
-    give_distances(entity, points, stride, count, signed_distance, nearest, nearest_stride,
-                   to_options(options, cancel_value));
+    const crt::MeasureOptions how = to_options(options, cancel_value);
+    require(entity, "entity");
+    const std::vector<crt::Vec3> questions = to_points(points, stride, count);
+    if (count > 0) require(signed_distance, "signed_distance");
+    const bool wants_points = nearest != nullptr && count > 0;
+    const Places<std::byte> places(reinterpret_cast<std::byte*>(nearest), nearest_stride,
+                                   sizeof(crt::Vec3), wants_points ? count : 0, "nearest");
+    std::vector<crt::NearestPoint> answers(count);
+    crt::nearest_points(entity->value, questions, answers, how);
+    for (std::size_t i = 0; i < count; ++i) {
+      signed_distance[i] = answers[i].signed_distance();
+      if (wants_points) std::memcpy(places[i], &answers[i].point, sizeof(crt::Vec3));
+    }
   });
 }
 

@@ -1,6 +1,7 @@
 #include "lang/context.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <type_traits>
@@ -15,17 +16,7 @@ namespace {
 
 /// Returns how long a unit is, as a whole number, so that the product with one rounds once.
 double tenths_of_millimetre(Unit unit) {
-  switch (unit) {
-    case Unit::m:
-      return 10'000;
-    case Unit::cm:
-      return 100;
-    case Unit::mm:
-      return 10;
-    case Unit::in:
-      break;
-  }
-  return 254;
+  return std::round(10'000 * metres_of(unit));
 }
 
 /// More calls than this do not fit on an ordinary thread's stack.

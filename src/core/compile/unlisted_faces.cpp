@@ -14,12 +14,8 @@ namespace {
 Bounds bounds_to_object(const Placement& placement, const Bounds& world) {
   if (!world.finite()) return Bounds::everything();
   Bounds box;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    const auto end = [&](int axis) {
-      return (corner >> axis & 1u) != 0 ? world.upper[axis] : world.lower[axis];
-    };
-    box.include(placement.point_to_object({end(0), end(1), end(2)}));
-  }
+  for (unsigned corner = 0; corner < 8; ++corner)
+    box.include(placement.point_to_object(world.corner(corner)));
   constexpr double roundings = 0x1p-40;
   return box.grown(roundings * (box.farthest() + world.farthest()));
 }

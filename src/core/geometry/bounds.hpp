@@ -27,6 +27,12 @@ struct Bounds {
            upper.x < infinity && upper.y < infinity && upper.z < infinity;
   }
 
+  /// Returns one of the eight corners: at the upper end of an axis if its bit is set.
+  Vec3 corner(unsigned number) const {
+    return {(number & 1U) != 0 ? upper.x : lower.x, (number & 2U) != 0 ? upper.y : lower.y,
+            (number & 4U) != 0 ? upper.z : lower.z};
+  }
+
   void include(const Vec3& point) {
     for (int axis = 0; axis < 3; ++axis) {
       lower[axis] = std::min(lower[axis], point[axis]);

@@ -83,8 +83,9 @@ std::uint32_t without_face(std::uint32_t table, std::size_t face, bool is_negati
   return rest;
 }
 
-CellFace linear_face(const Interval& at_middle, const Jet& jet, const Vec3& half) {
-  CellFace face{.slopes = jet.slope};
+/// Sets the linear function of a face in a box, and how far it is off.
+void make_linear(CellFace& face, const Interval& at_middle, const Jet& jet, const Vec3& half) {
+  face.slopes = jet.slope;
   face.value = at_middle.middle();
   double error = at_middle.width();
   for (int axis = 0; axis < 3; ++axis) {
@@ -101,10 +102,9 @@ CellFace linear_face(const Interval& at_middle, const Jet& jet, const Vec3& half
     face.slope = {0, 0, 0};
     face.error = infinity;
   }
-  return face;
 }
 
-/// Leaves out faces of a look that make no difference.
+/// Leaves out faces of a look that make no difference. Without any it is full or empty.
 void drop_faces(CellLook& look) {
   for (std::size_t i = look.faces.size(); i-- > 0;) {
     const std::uint32_t count = 1U << look.faces.size();
@@ -116,6 +116,8 @@ void drop_faces(CellLook& look) {
     look.inside = without_face(look.inside, i, false);
     look.faces.erase(look.faces.begin() + static_cast<std::ptrdiff_t>(i));
   }
+  if (look.faces.empty())
+    look.kind = look.is_inside(0) ? CellLook::Kind::full : CellLook::Kind::empty;
 }
 
 }  // namespace
@@ -227,7 +229,8 @@ LeafValue CellSolid::look_at(const CellLeaf& leaf, const Cell& cell, const CellF
       if (is_negative == work.is_any) return is_negative ? inside : outside;
       continue;
     }
-    CellFace found = linear_face(at_middle, jet, frame.half);
+    CellFace found;
+    make_linear(found, at_middle, jet, frame.half);
     found.leaf = static_cast<std::uint32_t>(&leaf - leaves_.data());
     found.face = face;
     found.surface = own_surface(found.leaf, face);
@@ -267,10 +270,7 @@ bool CellSolid::are_near(const CellFace& one, const CellFace& other, const Bound
   };
   if (!are_at(one.value, of_one, other.value, of_other)) return false;
   for (unsigned i = 0; i < 8; ++i) {
-    Vec3 corner = box.lower;
-    for (int axis = 0; axis < 3; ++axis)
-      if (((i >> axis) & 1U) != 0) corner[axis] = box.upper[axis];
-    const std::array<Jet, 3> place = jets_of(known_point(corner));
+    const std::array<Jet, 3> place = jets_of(known_point(box.corner(i)));
     const Jet a = value(one, place);
     const Jet b = value(other, place);
     if (!are_at(a.value.middle(), middle_of(a.slope), b.value.middle(), middle_of(b.slope)))
@@ -294,16 +294,10 @@ CellLook CellSolid::look_at_part(const CellLook& look, const Bounds& part) const
       continue;
     }
     CellFace found = face;
-    const CellFace linear = linear_face(at_middle, jet, frame.half);
-    found.value = linear.value;
-    found.slope = linear.slope;
-    found.error = linear.error;
-    found.slopes = linear.slopes;
+    make_linear(found, at_middle, jet, frame.half);
     result.faces.push_back(found);
   }
   drop_faces(result);
-  if (result.faces.empty())
-    result.kind = result.inside & 1U ? CellLook::Kind::full : CellLook::Kind::empty;
   return result;
 }
 
@@ -411,12 +405,11 @@ CellLook CellSolid::look(const Cell& cell, std::vector<UnitedFaces>* united) con
     const bool value = rest->value(std::span(leaf_true.get(), rest->leaves.size()));
     look.inside |= static_cast<std::uint32_t>(value) << m;
   }
-  drop_faces(look);
   const auto is_unknown = [](const CellFace& face) { return face.error == infinity; };
+  drop_faces(look);
+  if (look.faces.empty()) return look;
   look.kind = std::ranges::any_of(look.faces, is_unknown) ? CellLook::Kind::unknown
                                                           : CellLook::Kind::crossed;
-  if (look.faces.empty())
-    look.kind = look.inside != 0 ? CellLook::Kind::full : CellLook::Kind::empty;
   return look;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/entity/entity_node.hpp"
+#include "core/geometry/finite_sides.hpp"
 #include "core/math/drawing_axes.hpp"
 #include "crt/error.hpp"
 #include "crt/section.hpp"
@@ -70,7 +71,8 @@ class SceneCut {
     Scene result = scene_;
     result.camera.section_normal = {0, 0, 0};
     find();
-    if (hatch == 0) hatch = longest_side() / usual_lines;
+    const double longest = sides_.longest();
+    if (hatch == 0) hatch = longest > 0 ? longest / usual_lines : 1;
     const DrawingAxes axes = axes_across(normal_);
     bool is_turned = false;
     for (const std::size_t place : met_) {
@@ -99,18 +101,8 @@ class SceneCut {
         continue;
       }
       met_.push_back(i);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!std::isfinite(box.upper[axis] - box.lower[axis])) continue;
-        lower_[axis] = std::min(lower_[axis], box.lower[axis]);
-        upper_[axis] = std::max(upper_[axis], box.upper[axis]);
-      }
+      sides_.include(box.lower, box.upper);
     }
-  }
-
-  double longest_side() const {
-    double longest = 0;
-    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, upper_[axis] - lower_[axis]);
-    return longest > 0 ? longest : usual_lines;
   }
 
   const Scene& scene_;
@@ -118,8 +110,7 @@ class SceneCut {
   double offset_;
   std::vector<std::size_t> met_;
   std::vector<std::size_t> gone_;
-  Vec3 lower_{infinity};
-  Vec3 upper_{-infinity};
+  FiniteSides sides_;
 };
 
 }  // namespace

@@ -34,10 +34,7 @@ struct Rectangle {
 std::optional<Rectangle> seen_rectangle(const CameraRays& camera, const Bounds& box) {
   std::optional<Rectangle> seen;
   for (unsigned corner = 0; corner < 8; ++corner) {
-    const Vec3 point((corner & 1u) != 0 ? box.upper.x : box.lower.x,
-                     (corner & 2u) != 0 ? box.upper.y : box.lower.y,
-                     (corner & 4u) != 0 ? box.upper.z : box.lower.z);
-    const std::optional<PicturePlace> place = camera.place_of(point);
+    const std::optional<PicturePlace> place = camera.place_of(box.corner(corner));
     if (!place) return std::nullopt;
     if (!seen) seen = {place->x, place->y, place->x, place->y};
     seen->left = std::min(seen->left, place->x);

@@ -261,10 +261,7 @@ bool MeshProof::is_near_mesh(const Cell& cell, std::span<const std::uint32_t> ne
   const CellLook look = solid_.look(cell);
   if (!look.is_open()) return true;
   std::array<Vec3, 8> corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis)
-      corners[i][axis] = ((i >> axis) & 1U) != 0 ? cell.box.upper[axis] : cell.box.lower[axis];
-  }
+  for (unsigned i = 0; i < corners.size(); ++i) corners[i] = cell.box.corner(i);
   const bool is_all_near = std::ranges::any_of(near, [&](std::uint32_t triangle) {
     return is_within(triangle_of(mesh_, triangle), corners, distance);
   });
