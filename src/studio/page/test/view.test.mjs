@@ -1,6 +1,6 @@
 // What the view shows beside the picture: channels, what is hidden, sections, time, comparisons.
 import assert from 'node:assert/strict';
-import {readFileSync, writeFileSync} from 'node:fs';
+import {readFileSync, utimesSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {test} from 'node:test';
 import {browser, cameraOf, clickPicture, dragPicture, pixelAt, scene, shownBytes, showsBytes,
@@ -342,7 +342,10 @@ test('what was typed in another browser is offered after a crash', async () => {
   await next.getByRole('button', {name: 'Go on with it'}).click();
   assert.equal(await text(next), scene.replace('0.7', '0.55'));
   await next.context().close();
-  writeFileSync(join(folder, '.a.crt.1.typed'), scene.replace('0.7', '0.44'));
+  const left = join(folder, '.a.crt.1.typed');
+  writeFileSync(left, scene.replace('0.7', '0.44'));
+  const later = Date.now() / 1000 + 60;  // than the server may still write what `next` had
+  utimesSync(left, later, later);
   const other = await openPage(browser(), second.url);
   await other.getByRole('button', {name: 'Discard it'}).click();
   await whole(other);
