@@ -191,9 +191,10 @@ struct Wall {
 /// Finds the thinnest wall of a solid: the shortest chord in it that is normal to the surface at
 /// one end (to a hundred thousandth of a radian, as rounding goes) and within WallOptions::angle of
 /// a normal at the other. So a ball is as thick as its diameter, and the edge of a box is no wall.
-/// The chord that is given is surely there. The lower end may be poor, down to 0, where a surface
-/// has a point without a normal (the apex of a cone), where curved walls of one thickness are
-/// large, and for Custom solids: the search ends after many thousand pairs of boxes.
+/// Features smaller than 2^-20 of half of the box's diagonal are not looked at: a face that is
+/// narrower, and places as near to a point without a normal, such as the apex of a cone. The chord
+/// that is given is surely there. The lower end may be poor, down to 0, where curved walls of one
+/// thickness are large, and for Custom solids: the search ends after many thousand pairs of boxes.
 Wall least_wall(const Entity& entity, const WallOptions& options = {});
 
 }  // namespace crt

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "crt/error.hpp"
@@ -177,6 +178,39 @@ TEST_CASE("gaps and edges are no walls") {
   const Entity prism = box({0, 0, 0}, {2, 3, 4}) -
                        moved({0, -0.5, 0}, turned({0, 0, 45}, box({0, 0, -1}, {9, 9, 9})));
   check_wall(prism, 4);
+}
+
+TEST_CASE("where a fillet or a rounded edge ends, what rounding leaves of a face is no side") {
+  const auto rod = [](double radius, const Vec3& middle) {
+    return Entity(
+        Cylinder{.from = middle - Vec3{0, 0, 9}, .to = middle + Vec3{0, 0, 29}, .radius = radius});
+  };
+  // The wall is thinnest where the rounding is 5 degrees steep: its own normal goes to the bottom.
+  const double steep = std::numbers::pi / 36;
+  check_wall(box({0, 0, 0}, {10, 4, 10}) - (box({8, 2, -1}, {11, 5, 11}) - rod(2, {8, 2, 0})),
+             4 - 2 * (1 - std::cos(steep)), 1e-2);
+  const Entity bracket = box({0, 0, 0}, {60, 14, 20}) + box({0, 0, 0}, {14, 60, 20}) +
+                         (box({14, 14, 0}, {20, 20, 20}) - rod(6, {20, 20, 0}));
+  check_wall(bracket, 14, 1e-2);
+  const double quarter = std::sqrt(2.0) - 1;
+  const Contour contour{{.x = 0, .y = 0},
+                        {.x = 60, .y = 0},
+                        {.x = 60, .y = 14},
+                        {.x = 20, .y = 14},
+                        {.x = 14, .y = 20, .bulge = -quarter},
+                        {.x = 14, .y = 60},
+                        {.x = 0, .y = 60}};
+  const Entity drawn = Extrusion{.profile = make_profile(std::vector<Contour>{contour}), .to = 20};
+  check_wall(drawn, 14, 1e-2);
+  check_wall(turned({10, 20, 30}, drawn), 14, 1e-2);
+  // A face that is narrow, but no less than a millionth, is a side.
+  check_wall(box({0, 0, 0}, {100, 10, 100}) - box({50, 3, -1}, {50.01, 11, 101}), 3);
+}
+
+TEST_CASE("the apex of a cone is no wall") {
+  const Entity cone = Cone{.from = {5, 1, 5}, .to = {5, 9, 5}, .radius = 3, .radius2 = 0};
+  CHECK(least_wall(cone).thickness.lower == infinity);
+  check_wall(box({0, 0, 0}, {10, 2, 10}) + cone, 2, 1e-2);
 }
 
 TEST_CASE("what narrows by less than the angle is a wall, and by more is none") {

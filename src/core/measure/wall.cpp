@@ -21,7 +21,6 @@
 #include "core/measure/measure_clock.hpp"
 #include "core/measure/nearest.hpp"
 #include "core/measure/wall_faces.hpp"
-#include "crt/elementary.hpp"
 #include "crt/error.hpp"
 #include "crt/measure.hpp"
 
@@ -33,6 +32,11 @@ namespace {
 
 /// A chord begins along a normal to so many radians, as rounding does not let it be exact.
 constexpr double exact_angle = 1e-5;
+
+/// Features of this share of the solid's size (half of its box's diagonal) are not looked at: a
+/// face that is narrower, and what is as near to a point without a normal. Where faces are tangent,
+/// nothing tells them from what is left between them by rounding.
+constexpr double smallest_feature = 0x1p-20;
 
 /// The search is left after so many pairs: some seconds.
 constexpr std::size_t most_pairs_of_walls = std::size_t{1} << 19U;
@@ -105,12 +109,13 @@ class ChordFinder {
 
   /// Returns a bound on how far a line is off the normal where it passes the surface.
   double angle_off(const SolidLine& line, const LineRun& run, bool enters) const {
-    const CellLook look = solid_.look(solid_.cell(line.box(run.from, run.to)));
-    const std::vector<WallFace> faces = wall_faces_of(look);
+    const Bounds box = line.box(run.from, run.to);
+    const CellLook look = solid_.look(solid_.cell(box));
+    const std::vector<WallFace> faces = wall_faces_of(look, CellFrame(box).half, 0);
     if (faces.size() != 1) return infinity;
-    std::array<Interval, 3> way = line.unit();
-    if (enters) way = {-way[0], -way[1], -way[2]};
-    return most_off(faces.front().outward, way);
+    Directions way = directions_of(line.unit());
+    if (enters) way.middle = -way.middle;
+    return most_angle(faces.front().outward, way);
   }
 
   const CellSolid& solid_;
@@ -126,10 +131,8 @@ class WallSearch {
         options_(options),
         clock_(options.measure),
         size_(glm::length(CellFrame(entity.bounds()).half)) {
-    const double exact = elementary::tan(exact_angle);
-    const double loose =
-        elementary::tan(std::max(exact_angle, options.angle * std::numbers::pi / 180));
-    angle_ = {.exact = exact * exact, .loose = loose * loose};
+    const double loose = options.angle * std::numbers::pi / 180;
+    angle_ = {.exact = exact_angle, .loose = std::max(exact_angle, loose)};
   }
 
   Wall run() {
@@ -156,8 +159,9 @@ class WallSearch {
   static double side_of(const Bounds& box) { return largest_component(box.upper - box.lower); }
 
   void divide(const OpenPair& open) {
-    const bool divides_a =
-        side_of(tree_.node(open.a).cell.box) >= side_of(tree_.node(open.b).cell.box);
+    const double apart = glm::length(CellFrame(tree_.node(open.a).cell.box).middle -
+                                     CellFrame(tree_.node(open.b).cell.box).middle);
+    const bool divides_a = left_open_by(open.a, apart) >= left_open_by(open.b, apart);
     const std::uint32_t number = divides_a ? open.a : open.b;
     const std::uint32_t other = divides_a ? open.b : open.a;
     tree_.divide(number);
@@ -171,34 +175,47 @@ class WallSearch {
     }
   }
 
+  /// Returns how much a node leaves open of the angles between a wall and its sides, in radians, by
+  /// its normals and by its size. So what is far from the apex of a cone is not divided with it.
+  double left_open_by(std::uint32_t number, double apart) {
+    double spread = 0;
+    for (const WallFace& face : faces_of(number)) spread = std::max(spread, face.outward.spread);
+    return apart > 0 ? spread + side_of(tree_.node(number).cell.box) / apart : spread;
+  }
+
   /// Adds a pair if there may be a wall between its faces.
   void add(std::uint32_t number_a, std::uint32_t number_b) {
     const CellTree::Node& a = tree_.node(number_a);
     const CellTree::Node& b = tree_.node(number_b);
-    if (!a.look.is_open() || !b.look.is_open()) return;
+    if (!may_have_sides(a) || !may_have_sides(b)) return;
     const double apart = glm::length(way_between(a.cell.box, b.cell.box));
     if (apart >= search_.most()) return;
-    const double off = distance_rounding * std::max(largest_of(a.cell.box), largest_of(b.cell.box));
-    double least = apart;
-    if (a.look.kind == CellLook::Kind::crossed && b.look.kind == CellLook::Kind::crossed) {
-      least = infinity;
-      for (const WallFace& face_a : faces_of(number_a))
-        for (const WallFace& face_b : faces_of(number_b))
-          if (may_be_wall(a.cell.box, face_a, b.cell.box, face_b, angle_))
-            least = std::min(least, least_between(a.cell.box, face_a, b.cell.box, face_b));
-    }
+    const double off = distance_rounding * std::max(a.cell.box.farthest(), b.cell.box.farthest());
+    double least = infinity;
+    for (const WallFace& face_a : faces_of(number_a))
+      for (const WallFace& face_b : faces_of(number_b))
+        if (may_be_wall(a.cell.box, face_a, b.cell.box, face_b, angle_))
+          least = std::min(least, least_between(a.cell.box, face_a, b.cell.box, face_b));
     if (least < infinity) search_.add({number_a, number_b, std::max(0.0, least - off)});
+  }
+
+  /// Says whether walls may begin or end in a node. Faces of which nothing is known meet in one
+  /// point, or are of a solid that knows nothing anywhere.
+  bool may_have_sides(const CellTree::Node& node) const {
+    if (node.look.kind != CellLook::Kind::unknown) return node.look.is_open();
+    return side_of(node.cell.box) > smallest_feature * size_ ||
+           !std::isfinite(node.look.max_crossings);
   }
 
   /// Returns the faces of a node, which are found once. The list is there as long as the search.
   const std::vector<WallFace>& faces_of(std::uint32_t number) {
     const auto [place, is_new] = faces_.try_emplace(number);
-    if (is_new) place->second = wall_faces_of(tree_.node(number).look);
+    if (is_new) {
+      const CellTree::Node& node = tree_.node(number);
+      place->second =
+          wall_faces_of(node.look, CellFrame(node.cell.box).half, smallest_feature * size_);
+    }
     return place->second;
-  }
-
-  static double largest_of(const Bounds& box) {
-    return std::max(largest_component(box.lower), largest_component(box.upper));
   }
 
   /// Says whether all ways between two cells pass a place that is outside of the solid.
@@ -211,7 +228,7 @@ class WallSearch {
     for (const double share : {0.5, 0.25, 0.75}) {
       const Bounds between{(1 - share) * box_a.lower + share * box_b.lower,
                            (1 - share) * box_a.upper + share * box_b.upper};
-      const Vec3 off = Vec3(distance_rounding * std::max(largest_of(box_a), largest_of(box_b)));
+      const Vec3 off = Vec3(distance_rounding * std::max(box_a.farthest(), box_b.farthest()));
       if (solid.look(tree_.cell(a.object, {between.lower - off, between.upper + off})).kind ==
           CellLook::Kind::empty)
         return true;
@@ -230,6 +247,7 @@ class WallSearch {
         if (!(open.least < search_.most()) ||
             asked_.size() > most_chords_at_first + steps_ / steps_of_chord)
           return;
+        if (face.face == nullptr) continue;
         if (!asked_.emplace(number, face.face->surface, face.is_turned).second) continue;
         offer(finder.find(*face.face, face.is_turned, middle_of(frame, *face.face), most()));
       }

@@ -2,34 +2,30 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "core/measure/nearest.hpp"
+#include "crt/elementary.hpp"
 
 namespace crt::core {
 
 namespace {
 
-using IntervalVec = std::array<Interval, 3>;
+/// Angles are rounded by less than this, in radians.
+constexpr double angle_rounding = 0x1p-40;
 
-IntervalVec negated(const IntervalVec& v) {
-  return {-v[0], -v[1], -v[2]};
+/// A surface with normals in a small cell that differ by more than this, in radians, has a radius
+/// or a point that is as small.
+constexpr double largest_turn = 0.25;
+
+constexpr Directions any_direction{.middle = {1, 0, 0}, .spread = std::numbers::pi};
+
+Directions reversed(const Directions& directions) {
+  return {-directions.middle, directions.spread};
 }
 
-Interval product_of(const IntervalVec& a, const IntervalVec& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// Returns the square of the length of the cross product.
-Interval square_across(const IntervalVec& a, const IntervalVec& b) {
-  return square(a[1] * b[2] - a[2] * b[1]) + square(a[2] * b[0] - a[0] * b[2]) +
-         square(a[0] * b[1] - a[1] * b[0]);
-}
-
-/// Says whether two directions may be within an angle, by the square of its tangent.
-bool may_be_along(const IntervalVec& a, const IntervalVec& b, double square_of_tangent) {
-  const double along = product_of(a, b).hi;
-  return along > 0 &&
-         square_across(a, b).lo <= rounded_up(square_of_tangent * rounded_up(along * along));
+double angle_between(const Vec3& a, const Vec3& b) {
+  return elementary::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 /// Returns a bound on how far a face in a box reaches along a direction. For any factor, that is
@@ -50,55 +46,151 @@ double most_of_face(const CellFrame& frame, const CellFace& face, const Vec3& di
   return glm::dot(direction, frame.middle) + best;
 }
 
+/// Returns the length of a vector's part across another one.
+double length_across(const Vec3& v, const Vec3& along) {
+  const double square_of_length = glm::dot(along, along);
+  return glm::length(square_of_length > 0 ? v - glm::dot(v, along) / square_of_length * along : v);
+}
+
+/// A Side is the half space of a face's function, above 0.
+struct Side {
+  double value;
+  Vec3 slope;
+  double error;
+
+  Side(const CellFace& face, bool is_negative)
+      : value(is_negative ? -face.value : face.value),
+        slope(is_negative ? -face.slope : face.slope),
+        error(face.error) {}
+};
+
+/// Returns a bound on a function in a cell where a face is and where another function is above 0.
+/// For any factor of the face's function, and one above 0 of the other's, the sum of the three is
+/// not below the function there. The best factors leave the least of the slope.
+double most_within(const Side& side, const CellFace& on, const Side& other) {
+  const double of_on = glm::dot(on.slope, on.slope);
+  const double of_other = glm::dot(other.slope, other.slope);
+  const double of_both = glm::dot(on.slope, other.slope);
+  const double determinant = of_on * of_other - of_both * of_both;
+  const double along_on = glm::dot(side.slope, on.slope);
+  const double along_other = glm::dot(side.slope, other.slope);
+  double factor_of_on = of_on > 0 ? -along_on / of_on : 0;
+  double factor = 0;
+  if (determinant > 0) {
+    const double wanted = (of_both * along_on - of_on * along_other) / determinant;
+    if (wanted > 0) {
+      factor = wanted;
+      factor_of_on = (of_both * along_other - of_other * along_on) / determinant;
+    }
+  }
+  const Vec3 rest = glm::abs(side.slope + factor_of_on * on.slope + factor * other.slope);
+  return rest.x + rest.y + rest.z + side.value + factor_of_on * on.value + factor * other.value +
+         side.error + std::abs(factor_of_on) * on.error + factor * other.error;
+}
+
+/// Says whether a face, where the other functions have given signs, is nowhere in a cell, or
+/// between two of them that are no farther apart than `narrow`.
+bool is_narrow(const CellLook& look, std::size_t face, std::uint32_t negative, const Vec3& half,
+               double narrow) {
+  const CellFace& on = look.faces[face];
+  for (std::size_t i = 0; i < look.faces.size(); ++i) {
+    if (i == face) continue;
+    const Side side(look.faces[i], ((negative >> i) & 1U) != 0);
+    const double rise = length_across(side.slope / half, on.slope / half);
+    for (std::size_t k = 0; k < look.faces.size(); ++k) {
+      if (k == i || k == face) continue;
+      const Side other(look.faces[k], ((negative >> k) & 1U) != 0);
+      if (most_within(side, on, other) < narrow * rise) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
-std::vector<WallFace> wall_faces_of(const CellLook& look) {
+std::vector<WallFace> wall_faces_of(const CellLook& look, const Vec3& half, double narrow) {
+  const bool is_small = largest_component(half) <= narrow;
   std::vector<WallFace> faces;
+  if (look.kind == CellLook::Kind::unknown) faces.push_back({.outward = any_direction});
   if (look.kind != CellLook::Kind::crossed) return faces;
   const std::uint32_t count = 1U << look.faces.size();
   for (std::size_t i = 0; i < look.faces.size(); ++i) {
+    const CellFace& face = look.faces[i];
+    const Directions along = directions_of(face.slopes);
+    if (!face.is_surface || (is_small && along.spread > largest_turn)) continue;
     const std::uint32_t bit = 1U << i;
     bool is_below = false;  // whether the solid is where the function is below 0
     bool is_above = false;
     for (std::uint32_t m = 0; m < count; ++m) {
       if ((m & bit) == 0 || look.is_inside(m) == look.is_inside(m ^ bit)) continue;
-      (look.is_inside(m) ? is_below : is_above) = true;
+      bool& is_found = look.is_inside(m) ? is_below : is_above;
+      if (!is_found) is_found = !is_narrow(look, i, m, half, narrow);
     }
-    const CellFace& face = look.faces[i];
-    if (is_below) faces.push_back({.face = &face, .outward = face.slopes, .is_turned = false});
-    if (is_above)
-      faces.push_back({.face = &face, .outward = negated(face.slopes), .is_turned = true});
+    if (is_below) faces.push_back({.face = &face, .outward = along, .is_turned = false});
+    if (is_above) faces.push_back({.face = &face, .outward = reversed(along), .is_turned = true});
   }
   return faces;
 }
 
-double most_off(const IntervalVec& a, const IntervalVec& b) {
-  const double along = product_of(a, b).lo;
-  if (!(along > 0)) return infinity;
-  return rounded_up(square_across(a, b).hi / rounded_down(along * along));
+Directions directions_of(const std::array<Interval, 3>& vectors) {
+  const Vec3 middle = middle_of(vectors);
+  Vec3 off{0, 0, 0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval& side = vectors[static_cast<std::size_t>(axis)];
+    off[axis] = std::max(side.hi - middle[axis], middle[axis] - side.lo);
+  }
+  const double scale = largest_component(glm::abs(middle));
+  const double share = glm::length(off / scale) / glm::length(middle / scale);
+  if (!(share < 1)) return any_direction;
+  return {.middle = middle / scale / glm::length(middle / scale),
+          .spread = elementary::asin(share) + angle_rounding};
 }
+
+double least_angle(const Directions& a, const Directions& b) {
+  return angle_between(a.middle, b.middle) - a.spread - b.spread - angle_rounding;
+}
+
+double most_angle(const Directions& a, const Directions& b) {
+  return angle_between(a.middle, b.middle) + a.spread + b.spread + angle_rounding;
+}
+
+namespace {
+
+/// Says whether all of a face is behind all of another, along directions that are no farther from
+/// one than `off`. Neither is unknown.
+bool is_behind(const Bounds& box_a, const WallFace& a, const Bounds& box_b, const WallFace& b,
+               const Directions& along, double off) {
+  if (!(along.spread + off < 0.5 * std::numbers::pi - angle_rounding)) return false;
+  const double farthest = most_of_face(CellFrame(box_b), *b.face, along.middle) +
+                          most_of_face(CellFrame(box_a), *a.face, -along.middle);
+  return farthest < -distance_rounding * std::max(box_a.farthest(), box_b.farthest());
+}
+
+}  // namespace
 
 bool may_be_wall(const Bounds& box_a, const WallFace& a, const Bounds& box_b, const WallFace& b,
                  const WallAngle& angle) {
-  const IntervalVec into_a = negated(a.outward);
-  // The angles at both sides together, as tangents of sums are at most twice as large up to here.
-  const double together = std::sqrt(angle.exact) + std::sqrt(angle.loose);
-  if (!may_be_along(into_a, b.outward, 1.1 * together * together)) return false;
-  const IntervalVec from_a = intervals_of(box_a);
-  const IntervalVec to_b = intervals_of(box_b);
-  const IntervalVec way = {to_b[0] - from_a[0], to_b[1] - from_a[1], to_b[2] - from_a[2]};
-  if (!may_be_along(way, into_a, angle.loose) || !may_be_along(way, b.outward, angle.loose))
-    return false;
-  return may_be_along(way, into_a, angle.exact) || may_be_along(way, b.outward, angle.exact);
+  const Directions into_a = reversed(a.outward);
+  if (least_angle(into_a, b.outward) > angle.exact + angle.loose) return false;
+  const std::array<Interval, 3> from_a = intervals_of(box_a);
+  const std::array<Interval, 3> to_b = intervals_of(box_b);
+  const Directions way =
+      directions_of({to_b[0] - from_a[0], to_b[1] - from_a[1], to_b[2] - from_a[2]});
+  const double off_a = least_angle(way, into_a);
+  const double off_b = least_angle(way, b.outward);
+  if (std::min(off_a, off_b) > angle.exact || std::max(off_a, off_b) > angle.loose) return false;
+  if (a.face == nullptr || b.face == nullptr) return true;
+  return !is_behind(box_a, a, box_b, b, into_a, angle.loose) &&
+         !is_behind(box_a, a, box_b, b, b.outward, angle.loose);
 }
 
 double least_between(const Bounds& box_a, const WallFace& a, const Bounds& box_b,
                      const WallFace& b) {
+  double least = glm::length(way_between(box_a, box_b));
+  if (a.face == nullptr || b.face == nullptr) return least;
   const CellFrame frame_a(box_a);
   const CellFrame frame_b(box_b);
-  double least = glm::length(way_between(box_a, box_b));
-  for (const Vec3& along :
-       {-middle_of(a.outward), middle_of(b.outward), frame_b.middle - frame_a.middle}) {
+  for (const Vec3& along : {-a.outward.middle, b.outward.middle, frame_b.middle - frame_a.middle}) {
     const double size = glm::length(along);
     if (!(size > 0) || !std::isfinite(size)) continue;
     const Vec3 direction = along / size;

@@ -7,25 +7,36 @@
 
 namespace crt::core {
 
-/// A WallFace is a face that bounds a solid in a cell.
-struct WallFace {
-  const CellFace* face = nullptr;
-  std::array<Interval, 3> outward{};  ///< has all normals out of the solid, of any length
-  bool is_turned = false;             ///< whether they are against the slopes of its function
+/// Directions are all those that are so near to one.
+struct Directions {
+  Vec3 middle{0, 0, 0};  ///< of length 1
+  double spread = 0;     ///< in radians, at least a half turn if nothing is known
 };
 
-/// Returns the faces of a look, once for each side of them that may be solid.
-std::vector<WallFace> wall_faces_of(const CellLook& look);
+/// Returns the directions of vectors.
+Directions directions_of(const std::array<Interval, 3>& vectors);
 
-/// A WallAngle says how far a wall may be off a normal of its sides, by the square of the tangent.
+/// Returns a bound below or above the angles between two directions, in radians.
+double least_angle(const Directions& a, const Directions& b);
+double most_angle(const Directions& a, const Directions& b);
+
+/// A WallFace is a face that bounds a solid in a cell, or any that may do so in an unknown one.
+struct WallFace {
+  const CellFace* face = nullptr;  ///< null if unknown
+  Directions outward;              ///< has all normals out of the solid
+  bool is_turned = false;          ///< whether they are against the slopes of its function
+};
+
+/// Returns the faces of a look at a cell of which `half` is half the size, once for each side of
+/// them that may be solid. Those are left out that are narrower than `narrow` between two others,
+/// and in a cell no larger than that those that turn within it.
+std::vector<WallFace> wall_faces_of(const CellLook& look, const Vec3& half, double narrow);
+
+/// A WallAngle says how far a wall may be off a normal of its sides, in radians.
 struct WallAngle {
   double exact = 0;  ///< at the one side
   double loose = 0;  ///< at the other
 };
-
-/// Returns an upper bound of the square of the tangent of the angle between two directions, which
-/// is infinite if it may be a right one or more.
-double most_off(const std::array<Interval, 3>& a, const std::array<Interval, 3>& b);
 
 /// Says whether there may be a chord from a side of `a` in a box to a side of `b` in another that
 /// goes into the solid along a normal of each.
