@@ -254,8 +254,8 @@ class Entity(Handle):
         """Returns how thin the solid's thinnest wall is: the shortest chord in it that is normal to
         the surface at one end and within 5 degrees of a normal at the other. So the edge of a box
         is no wall. The upper end is the length of a chord that is there. The lower end may be poor
-        where curved walls of one thickness are large, and is 0 if there is an apex. It is what is
-        known after so many seconds."""
+        where curved walls of one thickness are large. It is what is known after so many
+        seconds."""
         return measures.least_wall(self._handle, relative_width, seconds)
 
     def tessellate(

@@ -141,17 +141,29 @@ TEST_CASE(
     CHECK(contains(box, within.on_b) == PointSide::inside);
   }
   CHECK(!clearance(Sphere{}, Box{.corner_a = {1, -1, -1}, .corner_b = {3, 1, 1}}).overlap);
-  CHECK(!clearance(Sphere{}, Sphere{.center = {0, 2, 0}}).overlap);
+  const Clearance touching = clearance(Sphere{}, Sphere{.center = {0, 2, 0}});
+  CHECK(!touching.overlap);
+  CHECK(touching.distance.lower == 0);
+  CHECK(touching.distance.upper < 1e-11);
 }
 
-TEST_CASE("what is between a shaft and its bore is within the bounds that are given") {
+TEST_CASE("what is between a shaft and its bore is known to a few percent") {
   const Entity bearing = Entity(Box{.corner_a = {-2, -2, -2}, .corner_b = {2, 2, 2}}) -
                          Entity(Cylinder{.from = {0, -3, 0}, .to = {0, 3, 0}, .radius = 1.25});
   const Clearance near = clearance(bearing, Cylinder{.from = {0, -3, 0}, .to = {0, 3, 0}});
   CHECK(near.distance.lower <= 0.25);
   CHECK(near.distance.upper >= 0.25);
-  CHECK(near.distance.width() < 0.05);
+  CHECK(near.distance.width() < 0.005);
   CHECK(!near.overlap);
+  // So is a play of a fiftieth of the radius.
+  const Entity block = Entity(Box{.corner_a = {-10, 0, -10}, .corner_b = {10, 10, 10}}) -
+                       Entity(Cylinder{.from = {0, -1, 0}, .to = {0, 11, 0}, .radius = 5});
+  const Entity pin = Cylinder{.from = {0, -1, 0}, .to = {0, 11, 0}, .radius = 4.9};
+  const Clearance play = clearance(block, pin);
+  CHECK(play.distance.lower > 0.095);
+  CHECK(play.distance.lower <= 0.1);
+  CHECK(play.distance.upper >= 0.1 - 1e-9);
+  CHECK(play.distance.upper < 0.1001);
 }
 
 TEST_CASE("pairs that overlap are found, with what they have in common") {

@@ -1,6 +1,7 @@
 #include "core/measure/cell_reach.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -21,6 +22,7 @@ class FarthestCorner {
   double distance = -infinity;  ///< along the direction, from the middle
 
   void find() {
+    if (look_.faces.size() == 1) return find_beside(look_.faces.front());
     const std::uint32_t count = 1U << look_.faces.size();
     for (std::uint32_t m = 0; m < count; ++m) {
       if (look_.is_inside(m) == wanted_) cut_off({cube().begin(), cube().end()}, 0, m);
@@ -28,6 +30,31 @@ class FarthestCorner {
   }
 
  private:
+  /// Of one face it is the best corner of the cube, less what brings it to the right side of the
+  /// face at the least loss of distance.
+  void find_beside(const CellFace& face) {
+    const double sign = look_.is_inside(1) == wanted_ ? 1 : -1;
+    const Vec3 rise = sign * face.slope;
+    Vec3 place(0, 0, 0);
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] = std::copysign(1.0, direction_[axis] == 0 ? -rise[axis] : direction_[axis]);
+    double too_high = sign * face.value + glm::dot(rise, place) - share_ * face.error;
+    std::array<int, 3> axes = {0, 1, 2};
+    std::ranges::sort(axes, [&](int a, int b) {
+      return std::abs(direction_[a] * rise[b]) < std::abs(direction_[b] * rise[a]);
+    });
+    for (const int axis : axes) {
+      const double fall = rise[axis] * place[axis];
+      if (!(too_high > 0 && fall > 0)) continue;
+      const double share = std::min(1.0, too_high / (2 * fall));
+      place[axis] *= 1 - 2 * share;
+      too_high = share < 1 ? 0 : too_high - 2 * fall;
+    }
+    if (too_high > 0) return;
+    corner = place;
+    distance = glm::dot(direction_, place);
+  }
+
   void cut_off(const std::vector<Tetrahedron>& parts, std::size_t number, std::uint32_t negative) {
     if (parts.empty()) return;
     if (number == look_.faces.size()) {

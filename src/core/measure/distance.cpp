@@ -21,10 +21,6 @@ namespace {
 /// Where a direction is needed and there is none, it is this.
 constexpr Vec3 any_direction(0, 0, 1);
 
-double largest_coordinate(const Bounds& box) {
-  return std::max(largest_component(box.lower), largest_component(box.upper));
-}
-
 /// Returns how narrow a distance is wanted: not beyond rounding.
 double width_of(double least, double size, const MeasureOptions& options) {
   constexpr double smallest = 0x1p-40;
@@ -101,7 +97,7 @@ class PointSearch {
       const CellReach reach = reach_of(node.cell.box, node.look, any_direction, wanted_);
       if (reach.surely > -infinity) {
         const double off =
-            distance_rounding * (largest_coordinate(node.cell.box) + largest_component(point_));
+            distance_rounding * (node.cell.box.farthest() + largest_component(point_));
         search_.offer(glm::length(reach.point - point_) + off);
         nearest_ = reach.point;
         return;
@@ -121,7 +117,7 @@ class PointSearch {
     const Vec3 direction = to_box > 0 ? way / to_box : any_direction;
     const CellReach reach = reach_of(box, node.look, -direction, wanted_);
     if (reach.most == -infinity) return;
-    const double off = distance_rounding * (largest_coordinate(box) + largest_component(point_));
+    const double off = distance_rounding * (box.farthest() + largest_component(point_));
     if (reach.surely > -infinity && search_.offer(glm::length(reach.point - point_) + off))
       nearest_ = reach.point;
     double least = 0;
@@ -147,6 +143,9 @@ class PointSearch {
   NearestSearch<OpenNode> search_;
 };
 
+/// The search for a distance is left after so many pairs of cells: some seconds.
+constexpr std::size_t most_pairs_of_search = std::size_t{1} << 18;
+
 /// To compare two cells takes as long as so many looks at leaves.
 constexpr std::uint64_t looks_of_pair = 8;
 
@@ -171,7 +170,7 @@ class PairSearch {
     while (!result_.overlap && !search_.is_done(width_of(search_.least(), size_, options_)) &&
            !clock_.is_over()) {
       const OpenPair open = search_.next();
-      if (++steps > most_cells_of_search) {
+      if (++steps > most_pairs_of_search) {
         search_.leave(open.least);
         break;
       }
@@ -207,20 +206,23 @@ class PairSearch {
     const Vec3 way = way_between(a.cell.box, b.cell.box);
     const double apart = glm::length(way);
     const double off = distance_rounding *
-                       std::max(largest_coordinate(a.cell.box), largest_coordinate(b.cell.box));
-    // Two directions say how near they may be: that between the boxes, and that of the nearest pair
-    // so far, which is the right one at once where edges or faces are parallel.
+                       std::max(a.cell.box.farthest(), b.cell.box.farthest());
+    // These directions say how near they may be: that between the boxes, that of the nearest pair
+    // so far, which is the right one at once where edges or faces are parallel, and the normals.
     const Vec3 between =
         apart > 0 ? way : CellFrame(b.cell.box).middle - CellFrame(a.cell.box).middle;
     double least = apart;
-    for (const Vec3& along : {between, result_.on_b - result_.on_a}) {
+    for (const Vec3& along : {glm::length(between) > 0 ? between : any_direction,
+                              result_.on_b - result_.on_a, outward(a.look), -outward(b.look)}) {
       const double length = glm::length(along);
-      const Vec3 direction = length > 0 ? along / length : any_direction;
+      if (!(length > 0)) continue;
+      const Vec3 direction = along / length;
       const CellReach of_a = reach_of(a.cell.box, a.look, direction);
       if (of_a.most == -infinity) return;
       const CellReach of_b = reach_of(b.cell.box, b.look, -direction);
       if (of_b.most == -infinity) return;
       least = std::max(least, -of_a.most - of_b.most);
+      if (least - off >= search_.most()) return;
       if (of_a.surely == -infinity || of_b.surely == -infinity) continue;
       offer(of_a.point, of_b.point, off);
       if (apart == 0) look_for_overlap(of_a.point, b.object);
@@ -234,6 +236,12 @@ class PairSearch {
       search_.leave(std::max(0.0, apart - off));
       if (apart == 0) look_for_overlap(on_a, b.object);
     }
+  }
+  /// Returns a normal out of the solid in a cell that a single face crosses, or else 0.
+  static Vec3 outward(const CellLook& look) {
+    if (look.kind != CellLook::Kind::crossed || look.faces.size() != 1) return {0, 0, 0};
+    const Vec3 slope = middle_of(look.faces.front().slopes);
+    return look.is_inside(1) ? slope : -slope;
   }
   /// Says that two points are surely of the solids. If they are the nearest so far, nearer ones are
   /// looked for beside them, in the one solid and in the other by turns.
