@@ -58,9 +58,10 @@ class Column {
   Interval area() const {
     Interval sum{0, 0};
     const Interval scale = frame_.side(frame_.a) * frame_.side(frame_.b) * Interval::of(0.25);
+    std::vector<PatchSeries> slants(levels_.size());
     for (const ColumnHeight& height : faces_.heights) {
       if (!look_.faces[height.face].is_surface) continue;
-      const PatchSeries slant = slant_of(solid_, look_, frame_, height);
+      const PatchSeries& slant = slants[level_of(height)] = slant_of(solid_, look_, frame_, height);
       const Interval range = range_of(slant);
       double seen = 0;
       double size = 0;
@@ -73,6 +74,12 @@ class Column {
                          std::min(areas_in_doubt_[level_of(height)], 4.0) * range.magnitude();
       const Interval of_height = Interval{sum_down(seen - off), sum_up(seen + off)} * scale;
       sum = sum + Interval{std::max(0.0, of_height.lo), std::max(0.0, of_height.hi)};
+    }
+    for (const Exchange& exchange : exchanges_) {
+      const PatchSeries change = slants[exchange.first] - slants[exchange.second];
+      const double off = exchange.area * range_of(change).magnitude();
+      const Interval all = sum + Interval{-off, off} * scale;
+      sum = {std::max(0.0, all.lo), all.hi};
     }
     return sum;
   }
@@ -163,6 +170,14 @@ class Column {
     }
   }
 
+  /// An Exchange is a wall in which two heights meet, the one of which is surface on its one side
+  /// and the other on the other. It has the area of the square that may be on either side.
+  struct Exchange {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    double area = 0;
+  };
+
   /// A Crossing is where two levels may cross, or the one may pass an end, in a part of the square.
   struct Crossing {
     PatchSeries difference;
@@ -200,12 +215,47 @@ class Column {
       }
     }
     areas_in_doubt_.assign(levels_.size(), 0);
-    for (const ColumnWall& wall : faces_.walls) {
-      const double area = area_in_doubt(wall.function, wall.error);
-      in_doubt_ += area * rounded_up(frame_.box.upper[frame_.c] - frame_.box.lower[frame_.c]);
-      for (double& sum : areas_in_doubt_) sum += area;
-    }
+    for (const ColumnWall& wall : faces_.walls) doubt_wall(wall);
     cut_part({}, std::move(crossings), 0);
+  }
+  /// Adds what is in doubt since a wall may be off.
+  void doubt_wall(const ColumnWall& wall) {
+    const double area = area_in_doubt(wall.function, wall.error);
+    const double height = rounded_up(frame_.box.upper[frame_.c] - frame_.box.lower[frame_.c]);
+    for (std::size_t first = 1; first + 1 < levels_.size(); ++first) {
+      for (std::size_t second = first + 1; second + 1 < levels_.size(); ++second) {
+        if (!only_exchanges(wall, first, second)) continue;
+        in_doubt_ +=
+            area * std::min(height, range_of(levels_[second] - levels_[first]).magnitude());
+        return exchanges_.push_back({first, second, area});
+      }
+    }
+    in_doubt_ += area * height;
+    for (double& sum : areas_in_doubt_) sum += area;
+  }
+  /// Returns whether a wall only says which of two heights is surface: on its sides the solid
+  /// differs between them alone, and one of them always counts.
+  bool only_exchanges(const ColumnWall& wall, std::size_t first, std::size_t second) const {
+    const auto is_within = [&](std::size_t level) {
+      const Interval range = range_of(levels_[level]);
+      return range.lo > frame_.box.lower[frame_.c] && range.hi < frame_.box.upper[frame_.c];
+    };
+    if (!is_within(first) || !is_within(second)) return false;
+    const ColumnHeight& one = faces_.heights[first - 1];
+    const ColumnHeight& other = faces_.heights[second - 1];
+    const std::uint32_t bit = 1U << wall.face;
+    const std::uint32_t both = 1U << one.face | 1U << other.face;
+    // Below a height its function is negative if it grows.
+    const std::uint32_t below =
+        (one.grows ? 1U << one.face : 0) | (other.grows ? 1U << other.face : 0);
+    for (std::uint32_t m = 0; m < 1U << look_.faces.size(); ++m) {
+      if (look_.is_inside(m) == look_.is_inside(m ^ bit)) continue;
+      const std::uint32_t not_below = (m ^ below) & both;
+      if (not_below == 0 || not_below == both) return false;
+      const std::uint32_t rest = m & ~both;
+      if (look_.is_inside(rest | below) == look_.is_inside(rest | (both ^ below))) return false;
+    }
+    return true;
   }
   /// Divides a part until it matters no more where levels cross in it. It matters twice: what is on
   /// the wrong side of the line is so little because the two levels are so near there.
@@ -361,6 +411,7 @@ class Column {
   double error_of_heights_ = 0;
   double in_doubt_ = 0;  ///< the volume, over the square, that may be on either side of a line
   std::vector<double> areas_in_doubt_;  ///< and the area of the square, by level
+  std::vector<Exchange> exchanges_;     ///< whose areas are not in it
   std::array<double, 10> sums_{};
   std::array<double, 10> sums_off_{};
 };

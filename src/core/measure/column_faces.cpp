@@ -10,16 +10,21 @@ namespace {
 
 using SeriesJet = JetOf<PatchSeries>;
 
+/// A function that changes no more, for its steepest slope, does not change.
+constexpr double straight = 0x1p-44;
+
 /// Returns how much a face's function may change from the middle to an end along an axis, but for
 /// what it does across.
 double change_along(const CellFace& face, int axis) {
   return std::abs(face.slope[axis]) + face.error;
 }
 
-/// Returns whether a face's function changes so little along an axis that it is a wall.
-bool is_wall(const CellFace& face, int axis) {
-  constexpr double straight = 0x1p-44;
-  return change_along(face, axis) <= straight * largest_component(face.slope);
+/// Returns whether a face's function changes so little along an axis that it is a wall. A joint may
+/// be bent across the axis: that matters little, since the faces that it joins meet there.
+bool is_wall(const CellFace& face, const Vec3& half, int axis) {
+  const double change =
+      face.is_surface ? change_along(face, axis) : face.slopes[at(axis)].magnitude() * half[axis];
+  return change <= straight * largest_component(face.slope);
 }
 
 /// A HeightSearch finds the height of a face.
@@ -75,7 +80,8 @@ class HeightSearch {
   std::optional<PatchSeries> proved(const PatchSeries& off) const {
     const int c = frame_.c;
     Interval range = range_of(height_);
-    const double margin = 0.125 * range.width() + 0x1p-40 * range.magnitude();
+    const double margin =
+        0.125 * range.width() + 0x1p-40 * (range.magnitude() + frame_.frame.half[c]);
     range = {range.lo - margin, range.hi + margin};
     if (!(range.hi >= frame_.box.lower[c] && range.lo <= frame_.box.upper[c])) return {};
     std::array<Interval, 3> around = intervals_of(frame_.box);
@@ -119,7 +125,7 @@ bool ColumnFaces::find(const CellSolid& solid, const CellLook& look, const Colum
                        double tolerance) {
   for (std::size_t i = 0; i < look.faces.size(); ++i) {
     const CellFace& face = look.faces[i];
-    if (is_wall(face, frame.c)) {
+    if (is_wall(face, frame.frame.half, frame.c)) {
       walls.push_back({i,
                        {face.value, {face.slope[frame.a], face.slope[frame.b], 0}},
                        change_along(face, frame.c)});
@@ -131,6 +137,10 @@ bool ColumnFaces::find(const CellSolid& solid, const CellLook& look, const Colum
     if (!height) return false;
     heights.push_back({i, face.slopes[at(frame.c)].lo > 0, *height});
   }
+  const auto is_bent = [](const ColumnWall& wall) {
+    return wall.error > straight * largest_component(wall.function.slope);
+  };
+  if (walls.size() > 1 && std::ranges::any_of(walls, is_bent)) return false;
   return !heights.empty();
 }
 
@@ -154,7 +164,7 @@ int column_axis_of(const CellLook& look, const Vec3& half) {
     double least = infinity;
     bool has_height = false;
     for (const CellFace& face : look.faces) {
-      if (is_wall(face, axis)) continue;
+      if (is_wall(face, half, axis)) continue;
       const double length = largest_component(face.slope / half);
       const double slope = std::abs(face.slope[axis]) / half[axis];
       has_height = true;

@@ -54,8 +54,8 @@ struct ColumnFaces {
   std::vector<ColumnWall> walls;
   std::vector<ColumnHeight> heights;
 
-  /// Finds walls, and heights to a tolerance if they can be. Returns false if a face is neither, or
-  /// none is a height.
+  /// Finds walls, and heights to a tolerance if they can be. Returns false if a face is neither, if
+  /// none is a height, or if a joint that is bent is not the only wall.
   bool find(const CellSolid& solid, const CellLook& look, const ColumnFrame& frame,
             double tolerance);
 };
