@@ -2,9 +2,9 @@
 
     figures.py --build build/release [--record] [NAME...]
 
-A figure is how many instructions a small render or query takes (callgrind counts them), or what the
-first build of the command takes: how many headers are parsed, and for how many seconds compilers
-run. NAME is a figure or how some begin. --record writes what was measured into the table.
+A figure is how many instructions a small render, query or measure takes (callgrind counts them), or
+what the first build of the command takes: how many headers are parsed, and for how many seconds
+compilers run. NAME is a figure or how some begin. --record writes what was measured into the table.
 
 Instructions depend on the compiler, on the versions of libraries and a little on the processor. So
 compare with figures of the same machine: record them before a change and measure after it.
@@ -23,7 +23,8 @@ SOURCE = BENCH.parents[1]
 TABLE = BENCH / "figures.txt"
 HEAD = """\
 # What CRT costs its users. `./dev figures` compares with this table, and `./dev figures --record`
-# writes it: the instructions of small renders and queries, and what the first build takes.
+# writes it: the instructions of small renders, queries and measures, and what the first build
+# takes.
 """
 TELLING = 0.03  # is the least share of a change that must have a reason
 WIDTH, HEIGHT = 40, 30
@@ -48,6 +49,16 @@ QUERIES = {
     "prepare/spheres": ("crt_scene_prepare", "spheres-1e4", 1, "batch"),
     "prepare/panorama": ("crt_scene_prepare", "lens-scene", 1, "batch"),
     "script/10000-lines": ("crt_scene_from_script_file", "spheres-1e4", 1, "batch"),
+}
+# A figure of measures is what one function takes of `crt measure`: its name, the type of its
+# options, the scene, and what is asked.
+MEASURES = {
+    "measure/volume": ("volume", "MeasureOptions", "scenes/flange.crt", "--volume"),
+    "measure/area": ("surface_area", "MeasureOptions", "scenes/flange.crt",
+                     "--area --relative-width 0.1"),
+    "measure/mass": ("mass_properties", "MeasureOptions", "measure/housing.crt",
+                     "--mass --relative-width 0.1"),
+    "measure/wall": ("least_wall", "WallOptions", "measure/bracket.crt", "--thickness"),
 }
 BUILD = ("build/headers", "build/seconds")
 
@@ -88,6 +99,13 @@ class Bench:
             function, scene, side, kind = QUERIES[name]
             program = self.build / "bin/ray_queries"
             return self.instructions(function, [program, self.script(scene), side, 1, kind])
+        if name in MEASURES:
+            function, taking, scene, arguments = MEASURES[name]
+            # A pattern would also name what is inside, where counting would end.
+            whole_name = f"crt::{function}(crt::Entity const&, crt::{taking} const&)"
+            return self.instructions(whole_name, [
+                self.build / "bin/crt", "measure", SOURCE / "examples" / scene, *arguments.split(),
+                "--threads", 1, "--quiet"])
         return headers(self.build) if name == "build/headers" else seconds(self.build)
 
 
@@ -125,7 +143,7 @@ def read_table() -> dict[str, int]:
 
 
 def main() -> int:
-    names = [*RENDERS, *QUERIES, *BUILD]
+    names = [*RENDERS, *QUERIES, *MEASURES, *BUILD]
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="where bin/ and lib/ are")

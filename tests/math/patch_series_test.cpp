@@ -124,21 +124,14 @@ TEST_CASE("where a series knows nothing, nothing that is made of it knows anythi
   CHECK(range_of(nothing).hi == infinite);
 }
 
-TEST_CASE("the integral of a series is that over the square") {
+TEST_CASE("a part of a series is a series of its own") {
   PatchSeries a = PatchSeries::of(Interval{1.5, 1.5});
   a.terms[PatchSeries::place(1, 0)] = 8;
-  a.terms[PatchSeries::place(2, 0)] = 3;
   a.terms[PatchSeries::place(2, 2)] = 9;
   a.terms[PatchSeries::place(1, 3)] = 5;
-  CHECK(integral_over_part(a, 0, 0, 1) == doctest::Approx(6 + 4 + 4));
-  // It is that of its quarters, each of which is a patch of its own.
-  double sum = 0;
-  double of_parts = 0;
   for (const double s : {-0.5, 0.5}) {
     for (const double t : {-0.5, 0.5}) {
-      sum += integral_over_part(a, s, t, 0.5);
       const PatchSeries part = part_of(a, s, t, 0.5);
-      of_parts += 0.25 * integral_over_part(part, 0, 0, 1);
       for (const double x : {-1.0, 0.3, 1.0}) {
         const double there = value_at(a, s + 0.5 * x, t - 0.5 * x);
         CHECK(value_at(part, x, -x) == doctest::Approx(there));
@@ -146,6 +139,4 @@ TEST_CASE("the integral of a series is that over the square") {
       }
     }
   }
-  CHECK(sum == doctest::Approx(14));
-  CHECK(of_parts == doctest::Approx(14));
 }

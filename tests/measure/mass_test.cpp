@@ -48,6 +48,24 @@ std::pair<Transform, double> random_motion(Random& random) {
   return {map, scale};
 }
 
+/// Returns a turned flange on the plane y = 0, with a fillet of 0.5 where the hub meets the plate.
+Entity turned_flange() {
+  const double bulge = 1 - std::sqrt(2.0);
+  const std::vector<Contour> contours = {{{.x = 1.2, .y = 0},
+                                          {.x = 5, .y = 0},
+                                          {.x = 5, .y = 1},
+                                          {.x = 2.5, .y = 1},
+                                          {.x = 2, .y = 1.5, .bulge = bulge},
+                                          {.x = 2, .y = 3},
+                                          {.x = 1.2, .y = 3}}};
+  return Revolution{.profile = make_profile(contours)};
+}
+/// These are by Pappus' theorems.
+constexpr double volume_of_flange = pi * (25 - 1.44) + pi * (4 - 1.44) * 2 +
+                                    2 * pi * (0.25 * 2.25 - pi / 16 * (2.5 - 2 / (3 * pi)));
+constexpr double area_of_flange = pi * (25 - 6.25) + pi * (25 - 1.44) + 10 * pi + 6 * pi +
+                                  pi * (4 - 1.44) + 7.2 * pi + 0.5 * pi * pi * (2.5 - 1 / pi);
+
 struct Known {
   std::string name;
   Entity solid;
@@ -78,6 +96,7 @@ std::vector<Known> known_solids() {
       {"Steinmetz's solid", Entity(along_x) ^ Entity(along_y), 16.0 / 3, 16},
       {"notched box", Entity(Box{}) - Entity(Sphere{.center = {1, 1, 1}}), 8 - pi / 6,
        24 - 0.75 * pi + 0.5 * pi},
+      {"turned flange", turned_flange(), volume_of_flange, area_of_flange},
       {"drilled box",
        Entity(Box{}) - Entity(Cylinder{.from = {0, -1, 0}, .to = {0, 1, 0}, .radius = 0.5}),
        8 - 0.5 * pi, 24 - 0.5 * pi + 2 * pi},
@@ -105,6 +124,7 @@ TEST_CASE("areas are those of closed forms") {
     check(surface_area(known.solid, {.relative_width = 1e-2}), known.area, 1e-2);
   }
   check(surface_area(Cylinder{}, {.relative_width = 1e-4}), 4 * pi, 1e-4);
+  check(surface_area(turned_flange(), {.relative_width = 1e-4}), area_of_flange, 1e-4);
 }
 
 TEST_CASE("a map that is not even changes a volume by its determinant") {

@@ -234,34 +234,6 @@ double value_at(const PatchSeries& a, double s, double t) {
   return sum;
 }
 
-double integral_over_part(const PatchSeries& a, double s, double t, double size) {
-  // These are the integrals of powers over an interval.
-  const auto powers = [size](double middle) {
-    std::array<double, degree + 1> result{};
-    const double low = middle - size;
-    const double high = middle + size;
-    double low_power = low;
-    double high_power = high;
-    result[0] = 2 * size;
-    for (std::size_t i = 1; i <= degree; ++i) {
-      low_power *= low;
-      high_power *= high;
-      result[i] = (high_power - low_power) / static_cast<double>(i + 1);
-    }
-    return result;
-  };
-  const auto of_s = powers(s);
-  const auto of_t = powers(t);
-  double sum = 0;
-  for (std::size_t i = 0; i <= degree; ++i) {
-    double row = 0;
-    for (std::size_t j = 0; i + j <= degree; ++j)
-      row += a.terms[PatchSeries::place(i, j)] * of_t[j];
-    sum += row * of_s[i];
-  }
-  return sum;
-}
-
 double change_in_quarter(const PatchSeries& a) {
   const auto sizes = sizes_by_degree(a);
   double sum = 0;

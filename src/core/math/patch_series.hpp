@@ -51,9 +51,6 @@ Interval range_of(const PatchSeries& a);
 PatchSeries part_of(const PatchSeries& a, double s, double t, double size);
 /// Returns the polynomial's value, rounded.
 double value_at(const PatchSeries& a, double s, double t);
-/// Returns the integral over s and t from those less size to those more, rounded. The error is not
-/// in it.
-double integral_over_part(const PatchSeries& a, double s, double t, double size);
 /// Returns a bound on how much it changes from the middle of a quarter of the patch to anywhere in
 /// it, but for the error.
 double change_in_quarter(const PatchSeries& a);

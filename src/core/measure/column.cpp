@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "core/measure/column_faces.hpp"
 #include "core/measure/square_pieces.hpp"
@@ -28,7 +29,9 @@ class Column {
     make_levels();
     cut_square();
     MassPart part;
+    level_sums_.resize(levels_.size());
     for (const SquarePiece& piece : pieces_) add_piece(piece);
+    sum_up_levels();
     const Interval scale = frame_.side(frame_.a) * frame_.side(frame_.b) * Interval::of(0.25);
     const auto sum_of = [&](std::size_t quantity, double most) {
       const double off = sums_off_[quantity] + in_doubt_ * most;
@@ -63,14 +66,9 @@ class Column {
       if (!look_.faces[height.face].is_surface) continue;
       const PatchSeries& slant = slants[level_of(height)] = slant_of(solid_, look_, frame_, height);
       const Interval range = range_of(slant);
-      double seen = 0;
-      double size = 0;
-      for (const SquarePiece& piece : pieces_) {
-        if (!is_surface(piece, height)) continue;
-        seen += integral_over(piece, slant);
-        size += piece.area();
-      }
-      const double off = (slant.error + rounding * range.magnitude()) * size +
+      const LevelSums& sums = level_sums_[level_of(height)];
+      const double seen = integral_of(slant, sums.seen);
+      const double off = (slant.error + rounding * range.magnitude()) * sums.area +
                          std::min(areas_in_doubt_[level_of(height)], 4.0) * range.magnitude();
       const Interval of_height = Interval{sum_down(seen - off), sum_up(seen + off)} * scale;
       sum = sum + Interval{std::max(0.0, of_height.lo), std::max(0.0, of_height.hi)};
@@ -372,30 +370,42 @@ class Column {
     f(levels_.size() - 1, is_inside(negative), false);
   }
 
+  /// LevelSums are over the pieces where the solid differs above and below a level.
+  struct LevelSums {
+    SquareMoments below{};  ///< less those where it is above
+    SquareMoments seen{};   ///< all of them
+    double area = 0;
+  };
   void add_piece(const SquarePiece& piece) {
     const double area = piece.area();
+    std::optional<SquareMoments> moments_there;
     for_each_level(piece, [&](std::size_t level, bool inside_below, bool inside_above) {
       if (inside_below == inside_above) return;
+      if (!moments_there) moments_there = moments_of(piece);
+      const SquareMoments& moments = *moments_there;
+      LevelSums& sums = level_sums_[level];
       const double sign = inside_below ? 1 : -1;
+      for (std::size_t i = 0; i < moments.size(); ++i) {
+        sums.below[i] += sign * moments[i];
+        sums.seen[i] += moments[i];
+      }
+      sums.area += area;
+    });
+  }
+  void sum_up_levels() {
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+      const LevelSums& sums = level_sums_[level];
       for (std::size_t k = 0; k < below_[level].size(); ++k) {
         const PatchSeries& below = below_[level][k];
-        sums_[k] += sign * integral_over(piece, below);
+        sums_[k] += integral_of(below, sums.below);
         sums_off_[k] +=
-            (below.error + rounding * (std::abs(below.terms[0]) + below.spread())) * area;
+            (below.error + rounding * (std::abs(below.terms[0]) + below.spread())) * sums.area;
       }
-    });
+    }
   }
 
   std::size_t level_of(const ColumnHeight& height) const {
     return static_cast<std::size_t>(&height - faces_.heights.data()) + 1;
-  }
-  bool is_surface(const SquarePiece& piece, const ColumnHeight& height) const {
-    bool result = false;
-    for_each_level(piece, [&](std::size_t level, bool below, bool above) {
-      const bool is_own = level == level_of(height);
-      if (is_own && below != above) result = true;
-    });
-    return result;
   }
 
   const CellSolid& solid_;
@@ -406,6 +416,7 @@ class Column {
   std::vector<PatchSeries> levels_;              ///< the lower end, the heights, the upper end
   std::vector<std::vector<PatchSeries>> below_;  ///< each level's integrals along the column
   std::vector<SquarePiece> pieces_;
+  std::vector<LevelSums> level_sums_;
   std::vector<WallSegment> segments_;
   double wall_off_ = 0;  ///< how far off the areas of walls may be where levels cross
   double error_of_heights_ = 0;
@@ -428,6 +439,8 @@ std::optional<CellMass> column_mass(const CellSolid& solid, const Bounds& box, c
   CellMass result{.part = column.mass(), .column_axis = axis};
   if (question.with_area) {
     result.part.area = column.area() + column.area_of_walls();
+    // Where a height is too steep somewhere, less is known of its area than of one that is cut.
+    if (!std::isfinite(result.part.area.hi)) return {};
   }
   return result;
 }

@@ -25,12 +25,24 @@ double area_in_doubt(const LinearFunction& function, double error) {
   return error < steepest ? 4 * (error / steepest) * (1 + 0x1p-40) : 4;
 }
 
-double integral_over(const SquarePiece& piece, const PatchSeries& series) {
-  if (piece.is_whole)
-    return integral_over_part(series, piece.part.s, piece.part.t, piece.part.size);
+namespace {
+
+/// Adds what the terms of a series are at a place, times a weight.
+void add_terms_at(double s, double t, double weight, SquareMoments& moments) {
+  std::array<double, PatchSeries::term_count> terms;
+  terms[0] = weight;
+  for (std::size_t i = 1; i <= PatchSeries::degree; ++i) {
+    const std::size_t row = PatchSeries::place(i, 0);
+    const std::size_t before = PatchSeries::place(i - 1, 0);
+    for (std::size_t j = 0; j < i; ++j) terms[row + j] = s * terms[before + j];
+    terms[row + i] = t * terms[before + i - 1];
+  }
+  for (std::size_t i = 0; i < terms.size(); ++i) moments[i] += terms[i];
+}
+
+SquareMoments moments_of_triangle(const FlatTriangle& triangle, double area) {
   // This rule is exact for polynomials of degree 6: Dunavant, High degree efficient symmetrical
   // Gaussian quadrature rules for the triangle, 1985.
-  const FlatTriangle& triangle = piece.triangle;
   static_assert(PatchSeries::degree <= 6);
   struct Place {
     double weight;
@@ -50,12 +62,51 @@ double integral_over(const SquarePiece& piece, const PatchSeries& series) {
     add(0.082851075618374, 0.053145049844817, 0.636502499121399, 0.310352451033784);
     return places;
   }();
-  double sum = 0;
+  SquareMoments moments{};
   for (const auto& [weight, shares] : rule) {
     const Vec3 place = shares[0] * triangle[0] + shares[1] * triangle[1] + shares[2] * triangle[2];
-    sum += weight * value_at(series, place.x, place.y);
+    add_terms_at(place.x, place.y, area * weight, moments);
   }
-  return piece.area() * sum;
+  return moments;
+}
+
+SquareMoments moments_of_part(const SquarePart& part) {
+  constexpr std::size_t degree = PatchSeries::degree;
+  // These are the integrals of powers over an interval.
+  const auto powers = [&](double middle) {
+    std::array<double, degree + 1> result{};
+    const double low = middle - part.size;
+    const double high = middle + part.size;
+    double low_power = low;
+    double high_power = high;
+    result[0] = 2 * part.size;
+    for (std::size_t i = 1; i <= degree; ++i) {
+      low_power *= low;
+      high_power *= high;
+      result[i] = (high_power - low_power) / static_cast<double>(i + 1);
+    }
+    return result;
+  };
+  const auto of_s = powers(part.s);
+  const auto of_t = powers(part.t);
+  SquareMoments moments{};
+  for (std::size_t i = 0; i <= degree; ++i)
+    for (std::size_t j = 0; i + j <= degree; ++j)
+      moments[PatchSeries::place(i, j)] = of_s[i] * of_t[j];
+  return moments;
+}
+
+}  // namespace
+
+SquareMoments moments_of(const SquarePiece& piece) {
+  return piece.is_whole ? moments_of_part(piece.part)
+                        : moments_of_triangle(piece.triangle, piece.area());
+}
+
+double integral_of(const PatchSeries& series, const SquareMoments& moments) {
+  double sum = 0;
+  for (std::size_t i = 0; i < moments.size(); ++i) sum += series.terms[i] * moments[i];
+  return sum;
 }
 
 void cut_pieces(const LinearFunction& function, std::uint32_t bit,

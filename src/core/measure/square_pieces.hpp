@@ -1,7 +1,7 @@
-// The square from -1 to 1 along s and t is cut into pieces, over each of which a polynomial is
-// integrated.
+// The square from -1 to 1 along s and t is cut into pieces, over which polynomials are integrated.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -56,8 +56,13 @@ struct NearlyLinear {
 /// Returns how much of the square a linear function is within an error of 0 in, at most.
 double area_in_doubt(const LinearFunction& function, double error);
 
-/// Integrates a series over a piece of the square, but for its error.
-double integral_over(const SquarePiece& piece, const PatchSeries& series);
+/// SquareMoments are the integrals of s^i t^j over pieces, rounded, in the order of a series'
+/// terms.
+using SquareMoments = std::array<double, PatchSeries::term_count>;
+
+SquareMoments moments_of(const SquarePiece& piece);
+/// Integrates a series over pieces, but for its error.
+double integral_of(const PatchSeries& series, const SquareMoments& moments);
 
 /// Cuts pieces where a function is 0. `bit` is added to those where it is below.
 void cut_pieces(const LinearFunction& function, std::uint32_t bit,
