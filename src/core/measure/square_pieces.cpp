@@ -27,45 +27,62 @@ double area_in_doubt(const LinearFunction& function, double error) {
 
 namespace {
 
-/// Adds what the terms of a series are at a place, times a weight.
-void add_terms_at(double s, double t, double weight, SquareMoments& moments) {
-  std::array<double, PatchSeries::term_count> terms;
-  terms[0] = weight;
-  for (std::size_t i = 1; i <= PatchSeries::degree; ++i) {
-    const std::size_t row = PatchSeries::place(i, 0);
-    const std::size_t before = PatchSeries::place(i - 1, 0);
-    for (std::size_t j = 0; j < i; ++j) terms[row + j] = s * terms[before + j];
-    terms[row + i] = t * terms[before + i - 1];
-  }
-  for (std::size_t i = 0; i < terms.size(); ++i) moments[i] += terms[i];
-}
+/// A TriangleRule is exact for polynomials of degree 6: Dunavant, High degree efficient symmetrical
+/// Gaussian quadrature rules for the triangle, 1985.
+struct TriangleRule {
+  static constexpr std::size_t count = 12;
+  using Places = std::array<double, count>;  ///< has a number for each
 
-SquareMoments moments_of_triangle(const FlatTriangle& triangle, double area) {
-  // This rule is exact for polynomials of degree 6: Dunavant, High degree efficient symmetrical
-  // Gaussian quadrature rules for the triangle, 1985.
-  static_assert(PatchSeries::degree <= 6);
-  struct Place {
-    double weight;
-    std::array<double, 3> shares;
-  };
-  constexpr auto rule = [] {
-    std::array<Place, 12> places{};
-    std::size_t count = 0;
+  Places weights;
+  std::array<Places, 3> shares;  ///< of the corners
+
+  constexpr TriangleRule() : weights{}, shares{} {
+    std::size_t place = 0;
     const auto add = [&](double weight, double a, double b, double c) {
-      places[count++] = {weight, {a, b, c}};
-      places[count++] = {weight, {b, c, a}};
-      places[count++] = {weight, {c, a, b}};
+      for (int turn = 0; turn < 3; ++turn, ++place) {
+        weights[place] = weight;
+        shares[0][place] = turn == 0 ? a : (turn == 1 ? b : c);
+        shares[1][place] = turn == 0 ? b : (turn == 1 ? c : a);
+        shares[2][place] = turn == 0 ? c : (turn == 1 ? a : b);
+      }
     };
     add(0.116786275726379, 0.501426509658179, 0.249286745170910, 0.249286745170910);
     add(0.050844906370207, 0.873821971016996, 0.063089014491502, 0.063089014491502);
     add(0.082851075618374, 0.053145049844817, 0.310352451033784, 0.636502499121399);
     add(0.082851075618374, 0.053145049844817, 0.636502499121399, 0.310352451033784);
-    return places;
-  }();
-  SquareMoments moments{};
-  for (const auto& [weight, shares] : rule) {
-    const Vec3 place = shares[0] * triangle[0] + shares[1] * triangle[1] + shares[2] * triangle[2];
-    add_terms_at(place.x, place.y, area * weight, moments);
+  }
+};
+
+/// Adds up four at a time, as processors do.
+double sum_of(const TriangleRule::Places& x) {
+  std::array<double, 4> sums;
+  for (std::size_t i = 0; i < 4; ++i) sums[i] = x[i] + x[i + 4] + x[i + 8];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+SquareMoments moments_of_triangle(const FlatTriangle& triangle, double area) {
+  static_assert(PatchSeries::degree <= 6);
+  constexpr TriangleRule rule;
+  constexpr std::size_t count = TriangleRule::count;
+  TriangleRule::Places s;
+  TriangleRule::Places t;
+  std::array<TriangleRule::Places, PatchSeries::degree + 1> terms;  // of one degree, weighted
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto at_place = [&](int axis) {
+      return rule.shares[0][k] * triangle[0][axis] + rule.shares[1][k] * triangle[1][axis] +
+             rule.shares[2][k] * triangle[2][axis];
+    };
+    s[k] = at_place(0);
+    t[k] = at_place(1);
+    terms[0][k] = area * rule.weights[k];
+  }
+  SquareMoments moments;
+  moments[0] = sum_of(terms[0]);
+  for (std::size_t i = 1; i <= PatchSeries::degree; ++i) {
+    for (std::size_t k = 0; k < count; ++k) terms[i][k] = t[k] * terms[i - 1][k];
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < count; ++k) terms[j][k] *= s[k];
+    for (std::size_t j = 0; j <= i; ++j) moments[PatchSeries::place(i - j, j)] = sum_of(terms[j]);
   }
   return moments;
 }
