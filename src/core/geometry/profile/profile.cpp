@@ -280,11 +280,12 @@ Bounds Profile::bounds_of(std::uint32_t piece) const {
   Bounds box;
   box.include(chord.from);
   box.include(chord.to);
-  if (chord.arc != invalid_index) box.include(bounds_of_arc(chord, arcs_[chord.arc]));
+  if (chord.arc != invalid_index) box.include(arcs_[chord.arc].bounds);
   return box;
 }
 
 void Profile::build_tree() {
+  for (Arc& arc : arcs_) arc.bounds = bounds_of_arc(pieces_[arc.piece], arc);
   std::vector<Bounds> boxes(pieces_.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     boxes[i] = bounds_of(static_cast<std::uint32_t>(i));

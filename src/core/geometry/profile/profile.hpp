@@ -55,6 +55,7 @@ class Profile {
     bool is_right = false;  ///< the segment is to the right of the chord's direction
     /// The circle meets the chord's line within this share of its length from the corners.
     double margin = 0;
+    core::Bounds bounds{};  ///< around all that rounding may make of it
   };
 
   /// A Wall is what a piece or an arc bounds the region by. First come the pieces, each of them its
