@@ -909,6 +909,34 @@ CRT_API crt_status crt_revolution_create(const crt_profile* profile, const doubl
                                          const double to[3], double angle, crt_entity** out);
 
 /**
+ * Makes a sweep: all points that a profile passes as it follows a path of straight lines, across
+ * which it stays. It turns with the path as little as can be. With a bend above 0 the path has an
+ * arc of that radius at each point in between, and with 0 the pieces are mitred. Ends are flat.
+ * Since 1.1.
+ * @param path    count points of three coordinates each; those that follow one another are at least
+ *                1e-100 apart, and the path nowhere turns straight back (to 0.1 degrees)
+ * @param count   at least 2, or 3 if the path is closed, and at most 4096
+ * @param bend    from 1e-100 to 1e100, or 0
+ * @param up      where y of the profile points at the first line, as far as that is across; z takes
+ *                its place if it is along the line, or x if it is along that, too
+ * @param closed  1 leads back from the last point to the first, in a plane; 0 does not
+ */
+CRT_API crt_status crt_sweep_create(const crt_profile* profile, const double* path, size_t count,
+                                    double bend, const double up[3], int closed, crt_entity** out);
+/**
+ * Makes a tube: all points within a radius of a path. The radius changes along it, and the ends are
+ * round. Since 1.1.
+ * @param path       as for crt_sweep_create(); it may turn back
+ * @param radii      the radius at each of the count points, from 1e-100 to 1e100, or 0 for a tip
+ * @param smooth     1 lets the path be a curve through the points, and the radii change as
+ *                   smoothly; with 0 both are straight in between
+ * @param closed     1 leads back from the last point to the first; 0 does not
+ * @param deviation  how far the pieces of a curve may be off; 0 is a 1000th of the largest radius
+ */
+CRT_API crt_status crt_tube_create(const double* path, const double* radii, size_t count,
+                                   int smooth, int closed, double deviation, crt_entity** out);
+
+/**
  * Makes a height field: a solid in the box between two opposite corners, which differ by at least
  * 1e-100 in every coordinate. It is below a surface over a grid of heights, of `columns` along x
  * and `rows` along z. The first column and row lie at the box's lower x and z, the last ones at the

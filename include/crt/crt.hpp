@@ -38,6 +38,7 @@
 #include <crt/stats.hpp>
 #include <crt/surface_mesh.hpp>
 #include <crt/svg_path.hpp>
+#include <crt/sweep.hpp>
 #include <crt/text.hpp>
 #include <crt/transform.hpp>
 #include <crt/validate.hpp>

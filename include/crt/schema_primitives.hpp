@@ -4,6 +4,7 @@
 #include <crt/ellipsoid.hpp>
 #include <crt/primitives.hpp>
 #include <crt/schema.hpp>
+#include <crt/sweep.hpp>
 #include <variant>
 
 /// @cond tables
@@ -187,7 +188,7 @@ inline constexpr auto table<Custom> = Table{
     material<Custom>,
 };
 
-// ---- solids that are other ones in a place or a shape of their own --------------------------
+// ---- solids that are made of other ones --------------------------------------------------
 
 template <>
 inline constexpr auto table<Ellipsoid> = Table{
@@ -197,8 +198,36 @@ inline constexpr auto table<Ellipsoid> = Table{
     material<Ellipsoid>,
 };
 
+template <>
+inline constexpr auto table<Sweep> = Table{
+    "Sweep",
+    field("profile", &Sweep::profile, made_by("make_profile"), required,
+          "as for an [Extrusion](#extrusion); its origin is on the path"),
+    field("path", &Sweep::path, any, required,
+          "points that are joined by straight lines, at least 2"),
+    field("bend", &Sweep::bend, length_or_zero, {},
+          "the radius of arcs at the points in between; without any the corners are mitred"),
+    field("up", &Sweep::up, direction, {},
+          "where y of the profile points at the first line; z or x if that is along the line"),
+    field("closed", &Sweep::closed, any, {}, "leads back from the last point to the first"),
+    material<Sweep>,
+};
+
+template <>
+inline constexpr auto table<Tube> = Table{
+    "Tube",
+    field("path", &Tube::path, any, required, "points, at least 2"),
+    field("radii", &Tube::radii, any, required,
+          "the radius at each point, or one number for all; 0 is a tip"),
+    field("smooth", &Tube::smooth, any, {}, "lets the path be a curve through its points"),
+    field("closed", &Tube::closed, any, {}, "leads back from the last point to the first"),
+    field("deviation", &Tube::deviation, length_or_zero, {.default_text = "a 1000th of the radius"},
+          "how far the pieces of a curve may be off"),
+    material<Tube>,
+};
+
 /// Lists them all.
-using PlacedSolids = std::variant<Ellipsoid>;
+using MadeSolids = std::variant<Ellipsoid, Sweep, Tube>;
 
 }  // namespace crt::schema
 /// @endcond

@@ -47,8 +47,10 @@ from .primitives import (
     RoundedBox,
     Sphere,
     Superellipsoid,
+    Sweep,
     Torus,
     Triangle,
+    Tube,
 )
 from .profiles import svg_path, text_contours
 from .rays import (
@@ -164,10 +166,12 @@ __all__ = [
     "Status",
     "Superellipsoid",
     "SurfaceMesh",
+    "Sweep",
     "Thickness",
     "ToneMap",
     "Torus",
     "Triangle",
+    "Tube",
     "Unit",
     "__version__",
     "camera_rays",

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _arguments, profiles
 from ._arguments import Point
@@ -38,8 +38,10 @@ __all__ = [
     "RoundedBox",
     "Sphere",
     "Superellipsoid",
+    "Sweep",
     "Torus",
     "Triangle",
+    "Tube",
 ]
 
 
@@ -392,6 +394,116 @@ class Revolution(_Primitive):
         handle = _profile(contours)
         self._create(
             "crt_revolution_create", material, id, shown, handle, a, b, math.radians(turn)
+        )
+
+
+def _path(name: str, path: ArrayLike) -> NDArray[np.float64]:
+    """Returns the points of a path."""
+    try:
+        points = np.ascontiguousarray(path, np.float64)
+    except (TypeError, ValueError):
+        raise _arguments.refusal(f"{name}: path", "n points", path) from None
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ValueError(f"{name}: path must be n x 3 numbers, not {points.shape}")
+    return points
+
+
+class Sweep(_Primitive):
+    """A Sweep is all points that a profile passes as it follows a path of straight lines, across
+    which it stays. The profile is as for Extrusion, with its origin on the path. With a `bend` the
+    path has an arc of that radius at each point in between, and without the pieces are mitred. y of
+    the profile points along `up` at the first line, as far as that is across. A closed path leads
+    back from the last point to the first, in a plane."""
+
+    profile = _Given[Any]()
+    path = _Given[Any]()
+    bend = _Given[float]()
+    up = _Given[Vector]()
+    closed = _Given[bool]()
+
+    def __init__(
+        self,
+        profile: Sequence[Any],
+        path: ArrayLike,
+        bend: SupportsFloat = 0,
+        up: Point = (0, 1, 0),
+        closed: bool = False,
+        *,
+        material: AnyMaterial | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        contours = _contours("Sweep", profile)
+        points = _path("Sweep", path)
+        radius = _arguments.number(bend, "Sweep: bend")
+        (above,) = self._vectors(up=up)
+        shown = {
+            "profile": contours,
+            "path": [tuple(point) for point in points.tolist()],
+            "bend": radius,
+            "up": tuple(above),
+            "closed": bool(closed),
+        }
+        self._create(
+            "crt_sweep_create",
+            material,
+            id,
+            shown,
+            _profile(contours),
+            points.ctypes.data,
+            len(points),
+            radius,
+            above,
+            bool(closed),
+        )
+
+
+class Tube(_Primitive):
+    """A Tube is all points within a radius of a path. `radii` has a number for each of its points,
+    or is one for all, and the ends are round. A `smooth` tube follows a curve through the points,
+    whose pieces are off by `deviation` at most. 0 is a 1000th of the largest radius."""
+
+    path = _Given[Any]()
+    radii = _Given[Any]()
+    smooth = _Given[bool]()
+    closed = _Given[bool]()
+    deviation = _Given[float]()
+
+    def __init__(
+        self,
+        path: ArrayLike,
+        radii: ArrayLike,
+        smooth: bool = False,
+        closed: bool = False,
+        deviation: SupportsFloat = 0,
+        *,
+        material: AnyMaterial | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        points = _path("Tube", path)
+        try:
+            given = np.asarray(radii, np.float64)
+            every = np.ascontiguousarray(np.broadcast_to(given, len(points)))
+        except (TypeError, ValueError):
+            raise _arguments.refusal("Tube: radii", "a number, or one a point", radii) from None
+        off = _arguments.number(deviation, "Tube: deviation")
+        shown = {
+            "path": [tuple(point) for point in points.tolist()],
+            "radii": every.tolist(),
+            "smooth": bool(smooth),
+            "closed": bool(closed),
+            "deviation": off,
+        }
+        self._create(
+            "crt_tube_create",
+            material,
+            id,
+            shown,
+            points.ctypes.data,
+            every.ctypes.data,
+            len(points),
+            bool(smooth),
+            bool(closed),
+            off,
         )
 
 

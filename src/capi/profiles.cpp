@@ -1,9 +1,11 @@
 // This file implements profiles of the C interface, and what is made of them.
+#include <algorithm>
 #include <iterator>
 
 #include "capi/structs.hpp"
 #include "crt/curves.hpp"
 #include "crt/svg_path.hpp"
+#include "crt/sweep.hpp"
 #include "crt/text.hpp"
 
 namespace crt::capi {
@@ -28,6 +30,19 @@ void add_contours(crt_profile& profile, std::vector<Contour> contours) {
   profile.contours.insert(profile.contours.end(), std::make_move_iterator(contours.begin()),
                           std::make_move_iterator(contours.end()));
   profile.is_drawn = false;
+}
+
+/// Returns how many points of a path are looked at. One more than is possible is refused.
+std::size_t looked_at(std::size_t count) {
+  return std::min(count, most_path_points + 1);
+}
+
+std::vector<Vec3> to_path(const double* path, std::size_t count) {
+  if (count > 0) require(path, "path");
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < looked_at(count); ++i)
+    points.push_back(to_vec3(path + 3 * i, "path"));
+  return points;
 }
 
 }  // namespace
@@ -145,5 +160,32 @@ crt_status crt_revolution_create(const crt_profile* profile, const double from[3
     require(out, "out");
     const auto made = crt::make_profile(profile->contours);
     *out = new crt_entity(crt::revolved(made, to_vec3(from, "from"), to_vec3(to, "to"), angle));
+  });
+}
+
+crt_status crt_sweep_create(const crt_profile* profile, const double* path, size_t count,
+                            double bend, const double up[3], int closed, crt_entity** out) {
+  return guarded([&] {
+    require(profile, "profile");
+    require(out, "out");
+    *out = new crt_entity(crt::Sweep{.profile = crt::make_profile(profile->contours),
+                                     .path = to_path(path, count),
+                                     .bend = bend,
+                                     .up = to_vec3(up, "up"),
+                                     .closed = closed != 0});
+  });
+}
+
+crt_status crt_tube_create(const double* path, const double* radii, size_t count, int smooth,
+                           int closed, double deviation, crt_entity** out) {
+  return guarded([&] {
+    require(out, "out");
+    std::vector<crt::Vec3> points = to_path(path, count);
+    if (count > 0) require(radii, "radii");
+    *out = new crt_entity(crt::Tube{.path = std::move(points),
+                                    .radii = {radii, radii + looked_at(count)},
+                                    .smooth = smooth != 0,
+                                    .closed = closed != 0,
+                                    .deviation = deviation});
   });
 }

@@ -179,6 +179,43 @@ void convert(const Given& given, Context&, Vec3& field) {
   field = vector;
 }
 
+void convert(const Given& given, Context& context, std::vector<Vec3>& field) {
+  const std::vector<Value>& items = get<List>(given)->items;
+  context.spend(given.value_span, items.size());
+  field.clear();
+  for (const Value& item : items) {
+    const auto* point = std::get_if<Vec3>(&item);
+    if (point == nullptr) {
+      reject(given, text::format("must be a List of points such as [vec3(0, 0, 0), vec3(1, 2, 0)]; "
+                                 "it has {} in it",
+                                 type_with_article(item)));
+    }
+    field.push_back(*point);
+  }
+}
+
+void convert(const Given& given, Context& context, std::vector<double>& field) {
+  double storage = 0;
+  if (const double* number = as_float(given.value, storage)) {
+    require_finite(given, *number);
+    field = {*number};
+    return;
+  }
+  const std::vector<Value>& items = get<List>(given)->items;
+  context.spend(given.value_span, items.size());
+  field.clear();
+  for (const Value& item : items) {
+    const double* number = as_float(item, storage);
+    if (number == nullptr) {
+      reject(given, text::format("must be a number, or a List of numbers such as [0.5, 1]; it has "
+                                 "{} in it",
+                                 type_with_article(item)));
+    }
+    require_finite(given, *number);
+    field.push_back(*number);
+  }
+}
+
 void convert(const Given& given, Context&, Color& field) {
   const Color& color = get<Color>(given);
   for (const double channel : {color.r, color.g, color.b, color.a}) require_finite(given, channel);

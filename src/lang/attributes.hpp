@@ -49,6 +49,8 @@ void convert(const Given& given, Context& context, std::uint64_t& field);
 void convert(const Given& given, Context& context, bool& field);
 void convert(const Given& given, Context& context, std::string& field);
 void convert(const Given& given, Context& context, Vec3& field);
+void convert(const Given& given, Context& context, std::vector<Vec3>& field);
+void convert(const Given& given, Context& context, std::vector<double>& field);
 void convert(const Given& given, Context& context, Color& field);
 void convert(const Given& given, Context& context, Pattern& field);
 void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field);
@@ -104,6 +106,12 @@ constexpr std::string_view type_text(const std::string*) {
 }
 constexpr std::string_view type_text(const Vec3*) {
   return "Vec3";
+}
+constexpr std::string_view type_text(const std::vector<Vec3>*) {
+  return "List of Vec3";
+}
+constexpr std::string_view type_text(const std::vector<double>*) {
+  return "List of Floats, or Float";
 }
 constexpr std::string_view type_text(const Color*) {
   return "Color";

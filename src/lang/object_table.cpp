@@ -106,7 +106,7 @@ std::vector<ObjectType> entity_types() {
     }
   };
   schema::for_each_kind<Primitive>(add);
-  schema::for_each_kind<schema::PlacedSolids>(add);
+  schema::for_each_kind<schema::MadeSolids>(add);
   for (ObjectType& type : types) take_visibility(type);
   return types;
 }

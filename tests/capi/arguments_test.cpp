@@ -45,6 +45,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_custom custom;
   crt_custom_init(&custom, sizeof custom);
   const double heights[4] = {0.5, 1, 0, 0.25};
+  const double two[6] = {0, 0, 0, 0, 0, 1};
   const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
   crt_farm_job planned;
   planned.struct_size = sizeof planned;
@@ -76,6 +77,20 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"from", [&] { return crt_revolution_create(square.get(), nullptr, o, 1, &entity); }},
       {"to", [&] { return crt_revolution_create(square.get(), z, nullptr, 1, &entity); }},
       {"out", [&] { return crt_revolution_create(square.get(), z, o, 1, nullptr); }},
+      {"profile", [&] { return crt_sweep_create(nullptr, two, 2, 0, o, 0, &entity); }},
+      {"path", [&] { return crt_sweep_create(square.get(), nullptr, 2, 0, o, 0, &entity); }},
+      {"path", [&] { return crt_sweep_create(square.get(), two, 1, 0, o, 0, &entity); }},
+      {"path", [&] { return crt_sweep_create(square.get(), two, 2, 0, o, 1, &entity); }},
+      {"bend", [&] { return crt_sweep_create(square.get(), two, 2, -1, o, 0, &entity); }},
+      {"up", [&] { return crt_sweep_create(square.get(), two, 2, 0, nullptr, 0, &entity); }},
+      {"up", [&] { return crt_sweep_create(square.get(), two, 2, 0, z, 0, &entity); }},
+      {"out", [&] { return crt_sweep_create(square.get(), two, 2, 0, o, 0, nullptr); }},
+      {"path", [&] { return crt_tube_create(nullptr, two, 2, 0, 0, 0, &entity); }},
+      {"path", [&] { return crt_tube_create(two, two, 0, 0, 0, 0, &entity); }},
+      {"radii", [&] { return crt_tube_create(two, nullptr, 2, 0, 0, 0, &entity); }},
+      {"radii", [&] { return crt_tube_create(two, z, 2, 0, 0, 0, &entity); }},
+      {"deviation", [&] { return crt_tube_create(two, o, 2, 1, 0, -1, &entity); }},
+      {"out", [&] { return crt_tube_create(two, o, 2, 0, 0, 0, nullptr); }},
       {"out", [&] { return crt_profile_create(nullptr); }},
       {"profile", [&] { return crt_profile_move_to(nullptr, 0, 0); }},
       {"profile", [&] { return crt_profile_line_to(nullptr, 0, 0); }},

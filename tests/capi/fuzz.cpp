@@ -97,9 +97,24 @@ void Session::make_primitive() {
         if (input_.below(2) != 0) crt_profile_move_to(profile, b[2], s);
         crt_profile_arc_to(profile, c[2], a[0], s);
         crt_profile_line_to(profile, b[1], r);
-        const crt_status status =
-            input_.below(2) != 0 ? crt_extrusion_create(profile, a.data(), c.data(), out)
-                                 : crt_revolution_create(profile, a.data(), c.data(), b[0], out);
+        const double path[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
+        crt_status status = CRT_OK;
+        switch (input_.below(4)) {
+          case 0:
+            status = crt_extrusion_create(profile, a.data(), c.data(), out);
+            break;
+          case 1:
+            status = crt_revolution_create(profile, a.data(), c.data(), b[0], out);
+            break;
+          case 2:
+            status = crt_sweep_create(profile, path, input_.below(4), r, b.data(),
+                                      static_cast<int>(input_.below(2)), out);
+            break;
+          default:
+            status = crt_tube_create(path, path, input_.below(4), static_cast<int>(input_.below(2)),
+                                     static_cast<int>(input_.below(2)), s, out);
+            break;
+        }
         crt_profile_release(profile);
         return status;
       }

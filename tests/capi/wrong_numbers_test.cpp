@@ -11,6 +11,7 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
   const EntityHandle ball = sphere(zero, 1);
   const SceneHandle scene = new_scene();
   const double heights[4] = {0.5, 1, 0, 0.25};
+  const double line[6] = {0, 0, 0, 0, 0, 1};
   const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
   const ProfileHandle square = square_profile();
   crt_mass mass;
@@ -46,6 +47,12 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
           {"from", [&] { return crt_capsule_create(p, z, 1, &out); }},
           {"from", [&] { return crt_extrusion_create(square.get(), p, z, &out); }},
           {"to", [&] { return crt_extrusion_create(square.get(), z, p, &out); }},
+          {"path", [&] { return crt_sweep_create(square.get(), p, 1, 0, u, 0, &out); }},
+          {"bend", [&] { return crt_sweep_create(square.get(), line, 2, bad, u, 0, &out); }},
+          {"up", [&] { return crt_sweep_create(square.get(), line, 2, 0, p, 0, &out); }},
+          {"path", [&] { return crt_tube_create(p, u, 1, 0, 0, 0, &out); }},
+          {"radii", [&] { return crt_tube_create(line, &bad, 1, 0, 0, 0, &out); }},
+          {"deviation", [&] { return crt_tube_create(line, u, 2, 1, 0, bad, &out); }},
           {"from", [&] { return crt_revolution_create(square.get(), p, z, 1, &out); }},
           {"to", [&] { return crt_revolution_create(square.get(), z, p, 1, &out); }},
           {"corner_a", [&] { return crt_height_field_create(heights, 2, 2, p, z, &out); }},
