@@ -648,6 +648,15 @@ CRT_API crt_status crt_capsule_create(const double from[3], const double to[3], 
 CRT_API crt_status crt_ellipsoid_create(const double center[3], const double radii[3],
                                         crt_entity** out);
 /**
+ * Makes the solid of a screw thread from one point to another, with the profile of ISO 68-1: M8 has
+ * a diameter of 8 and a pitch of 1.25. Its ends are flat. It is an implicit solid. Since 1.1.
+ * @param diameter  of the crests, from 1e-100 to 1e100
+ * @param pitch     how far a turn leads, from a 10000th of the length to 0.9 diameters
+ * @param left      1 turns the other way; 0 does not
+ */
+CRT_API crt_status crt_thread_create(const double from[3], const double to[3], double diameter,
+                                     double pitch, int left, crt_entity** out);
+/**
  * Makes a box between two corners whose edges and corners are rounded with `radius`, which is from
  * 0 to half of the shortest side. Since 1.1.
  */

@@ -40,6 +40,7 @@
 #include <crt/svg_path.hpp>
 #include <crt/sweep.hpp>
 #include <crt/text.hpp>
+#include <crt/thread.hpp>
 #include <crt/transform.hpp>
 #include <crt/validate.hpp>
 #include <crt/vec.hpp>

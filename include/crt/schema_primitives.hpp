@@ -5,6 +5,7 @@
 #include <crt/primitives.hpp>
 #include <crt/schema.hpp>
 #include <crt/sweep.hpp>
+#include <crt/thread.hpp>
 #include <variant>
 
 /// @cond tables
@@ -226,8 +227,21 @@ inline constexpr auto table<Tube> = Table{
     material<Tube>,
 };
 
+template <>
+inline constexpr auto table<Thread> = Table{
+    "Thread",
+    field("from", &Thread::from, point, {.required = true, .c = "start"}, "the centre of one end"),
+    field("to", &Thread::to, apart_from("from"), {.required = true, .c = "end"},
+          "the centre of the other"),
+    field("diameter", &Thread::diameter, length, required, "of the crests, at least 0"),
+    field("pitch", &Thread::pitch, length, required,
+          "how far a turn leads, from a 10000th of the length to 0.9 diameters"),
+    field("left", &Thread::left, any, {}, "turns the other way"),
+    material<Thread>,
+};
+
 /// Lists them all.
-using MadeSolids = std::variant<Ellipsoid, Sweep, Tube>;
+using MadeSolids = std::variant<Ellipsoid, Sweep, Tube, Thread>;
 
 }  // namespace crt::schema
 /// @endcond

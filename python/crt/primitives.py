@@ -39,6 +39,7 @@ __all__ = [
     "Sphere",
     "Superellipsoid",
     "Sweep",
+    "Thread",
     "Torus",
     "Triangle",
     "Tube",
@@ -674,6 +675,40 @@ class Ellipsoid(_Primitive):
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, center=center, radii=radii)
+
+
+class Thread(_Primitive):
+    """A Thread is the solid of a screw thread from the start to the end, with the profile of ISO
+    68-1. M8 has a diameter of 8 and a pitch of 1.25. `left` turns the other way."""
+
+    start = _Given[Vector]()
+    end = _Given[Vector]()
+    diameter = _Given[float]()
+    pitch = _Given[float]()
+    left = _Given[bool]()
+
+    def __init__(
+        self,
+        start: Point,
+        end: Point,
+        diameter: SupportsFloat,
+        pitch: SupportsFloat,
+        left: bool = False,
+        *,
+        material: AnyMaterial | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        a, b = self._vectors(start=start, end=end)
+        across = self._positive(diameter, "diameter")
+        turn = self._positive(pitch, "pitch")
+        shown = {
+            "start": tuple(a),
+            "end": tuple(b),
+            "diameter": across,
+            "pitch": turn,
+            "left": bool(left),
+        }
+        self._create("crt_thread_create", material, id, shown, a, b, across, turn, bool(left))
 
 
 class Disc(_Primitive):

@@ -117,6 +117,11 @@ crt_status crt_ellipsoid_create(const double center[3], const double radii[3], c
   return create_of<crt::Ellipsoid>(out, center, radii);
 }
 
+crt_status crt_thread_create(const double from[3], const double to[3], double diameter,
+                             double pitch, int left, crt_entity** out) {
+  return create_of<crt::Thread>(out, from, to, diameter, pitch, left != 0);
+}
+
 crt_status crt_rounded_box_create(const double corner_a[3], const double corner_b[3], double radius,
                                   crt_entity** out) {
   return create_of<crt::RoundedBox>(out, corner_a, corner_b, radius);

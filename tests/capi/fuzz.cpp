@@ -140,7 +140,8 @@ void Session::make_primitive() {
         return crt_blob_create(parts, input_.below(3), 0.5, out);
       }
       case 16:
-        return crt_superellipsoid_create(r, s, out);
+        return input_.below(2) != 0 ? crt_superellipsoid_create(r, s, out)
+                                    : crt_thread_create(a.data(), b.data(), r, s, 0, out);
       case 17: {
         auto custom = scrambled<crt_custom>(input_, crt_custom_init);
         crt::test::describe_any(input_, a, b, custom);
