@@ -655,7 +655,7 @@ CRT_API crt_status crt_ellipsoid_create(const double center[3], const double rad
  * @param left      1 turns the other way; 0 does not
  */
 CRT_API crt_status crt_thread_create(const double from[3], const double to[3], double diameter,
-                                     double pitch, int left, crt_entity** out);
+                                     double pitch, int32_t left, crt_entity** out);
 /**
  * Makes a box between two corners whose edges and corners are rounded with `radius`, which is from
  * 0 to half of the shortest side. Since 1.1.
@@ -931,7 +931,8 @@ CRT_API crt_status crt_revolution_create(const crt_profile* profile, const doubl
  * @param closed  1 leads back from the last point to the first, in a plane; 0 does not
  */
 CRT_API crt_status crt_sweep_create(const crt_profile* profile, const double* path, size_t count,
-                                    double bend, const double up[3], int closed, crt_entity** out);
+                                    double bend, const double up[3], int32_t closed,
+                                    crt_entity** out);
 /**
  * Makes a tube: all points within a radius of a path. The radius changes along it, and the ends are
  * round. Since 1.1.
@@ -943,7 +944,27 @@ CRT_API crt_status crt_sweep_create(const crt_profile* profile, const double* pa
  * @param deviation  how far the pieces of a curve may be off; 0 is a 1000th of the largest radius
  */
 CRT_API crt_status crt_tube_create(const double* path, const double* radii, size_t count,
-                                   int smooth, int closed, double deviation, crt_entity** out);
+                                   int32_t smooth, int32_t closed, double deviation,
+                                   crt_entity** out);
+
+/**
+ * Makes a polyhedron: the solid that flat faces enclose. A face need not be convex. It becomes
+ * triangles between its corners, which are flat if these are in one plane. It is a mesh. Since 1.1.
+ * @param points   point_count points of three coordinates each
+ * @param corners  places in `points`, from 0: the corners of the first face in order around it,
+ *                 either way, then those of the second, and so on
+ * @param sizes    how many corners each face has, from 3 to 1024
+ */
+CRT_API crt_status crt_polyhedron_create(const double* points, size_t point_count,
+                                         const uint32_t* corners, const uint32_t* sizes,
+                                         size_t face_count, crt_entity** out);
+/**
+ * Makes a hull: the smallest convex solid that holds points. Its corners are some of these. It is a
+ * mesh. Since 1.1.
+ * @param points  count points of three coordinates each, which are not all in one plane
+ * @param count   at least 4, and at most 1024
+ */
+CRT_API crt_status crt_hull_create(const double* points, size_t count, crt_entity** out);
 
 /**
  * Makes a height field: a solid in the box between two opposite corners, which differ by at least

@@ -26,6 +26,7 @@
 #include <crt/mesh.hpp>
 #include <crt/mesh_file.hpp>
 #include <crt/pattern.hpp>
+#include <crt/polyhedron.hpp>
 #include <crt/prepared_scene.hpp>
 #include <crt/primitives.hpp>
 #include <crt/principled.hpp>

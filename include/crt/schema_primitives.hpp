@@ -2,6 +2,7 @@
 #pragma once
 
 #include <crt/ellipsoid.hpp>
+#include <crt/polyhedron.hpp>
 #include <crt/primitives.hpp>
 #include <crt/schema.hpp>
 #include <crt/sweep.hpp>
@@ -240,8 +241,24 @@ inline constexpr auto table<Thread> = Table{
     material<Thread>,
 };
 
+template <>
+inline constexpr auto table<Polyhedron> = Table{
+    "Polyhedron",
+    field("points", &Polyhedron::points, any, required, "the corners"),
+    field("faces", &Polyhedron::faces, any, required,
+          "the corners of each, by their places in `points` from 0, in order"),
+    material<Polyhedron>,
+};
+
+template <>
+inline constexpr auto table<Hull> = Table{
+    "Hull",
+    field("points", &Hull::points, any, required, "at least four that are not in one plane"),
+    material<Hull>,
+};
+
 /// Lists them all.
-using MadeSolids = std::variant<Ellipsoid, Sweep, Tube, Thread>;
+using MadeSolids = std::variant<Ellipsoid, Sweep, Tube, Thread, Polyhedron, Hull>;
 
 }  // namespace crt::schema
 /// @endcond

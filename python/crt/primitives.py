@@ -3,6 +3,7 @@ Entity.with_material and Entity.with_id do."""
 
 import ctypes
 import math
+import operator
 import re
 from collections.abc import Sequence
 from typing import Any, ClassVar, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
@@ -31,8 +32,10 @@ __all__ = [
     "Extrusion",
     "HalfPlane",
     "HeightField",
+    "Hull",
     "Implicit",
     "Plane",
+    "Polyhedron",
     "Quadric",
     "Revolution",
     "RoundedBox",
@@ -337,6 +340,17 @@ def _profile(contours: list[list[tuple[float, ...]]]) -> Reference:
     return handle
 
 
+def _points(name: str, path: ArrayLike, argument: str = "path") -> NDArray[np.float64]:
+    """Returns points as rows of three numbers."""
+    try:
+        points = np.ascontiguousarray(path, np.float64)
+    except (TypeError, ValueError):
+        raise _arguments.refusal(f"{name}: {argument}", "n points", path) from None
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ValueError(f"{name}: {argument} must be n x 3 numbers, not {points.shape}")
+    return points
+
+
 class Extrusion(_Primitive):
     """An Extrusion is a profile that is drawn out from the start to the end. The profile is a
     sequence of corners, (x, y) or (x, y, bulge), or a sequence of such contours. A corner with a
@@ -398,17 +412,6 @@ class Revolution(_Primitive):
         )
 
 
-def _path(name: str, path: ArrayLike) -> NDArray[np.float64]:
-    """Returns the points of a path."""
-    try:
-        points = np.ascontiguousarray(path, np.float64)
-    except (TypeError, ValueError):
-        raise _arguments.refusal(f"{name}: path", "n points", path) from None
-    if points.ndim != 2 or points.shape[1] != 3:
-        raise ValueError(f"{name}: path must be n x 3 numbers, not {points.shape}")
-    return points
-
-
 class Sweep(_Primitive):
     """A Sweep is all points that a profile passes as it follows a path of straight lines, across
     which it stays. The profile is as for Extrusion, with its origin on the path. With a `bend` the
@@ -434,7 +437,7 @@ class Sweep(_Primitive):
         id: SupportsIndex | None = None,
     ) -> None:
         contours = _contours("Sweep", profile)
-        points = _path("Sweep", path)
+        points = _points("Sweep", path)
         radius = _arguments.number(bend, "Sweep: bend")
         (above,) = self._vectors(up=up)
         shown = {
@@ -480,7 +483,7 @@ class Tube(_Primitive):
         material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        points = _path("Tube", path)
+        points = _points("Tube", path)
         try:
             given = np.asarray(radii, np.float64)
             every = np.ascontiguousarray(np.broadcast_to(given, len(points)))
@@ -709,6 +712,62 @@ class Thread(_Primitive):
             "left": bool(left),
         }
         self._create("crt_thread_create", material, id, shown, a, b, across, turn, bool(left))
+
+
+class Polyhedron(_Primitive):
+    """A Polyhedron is the solid that flat faces enclose. Each is a sequence of corners, which are
+    places in `points` from 0, in order around it, either way. It need not be convex."""
+
+    points = _Given[Any]()
+    faces = _Given[Any]()
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        faces: Sequence[Sequence[SupportsIndex]],
+        *,
+        material: AnyMaterial | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        places = _points("Polyhedron", points, "points")
+        try:
+            given = [[operator.index(corner) for corner in face] for face in faces]
+            corners = np.array([corner for face in given for corner in face], np.uint32)
+            sizes = np.array([len(face) for face in given], np.uint32)
+        except (TypeError, ValueError, OverflowError):
+            raise _arguments.refusal(
+                "Polyhedron: faces", "sequences of places in points", faces
+            ) from None
+        shown = {"points": [tuple(point) for point in places.tolist()], "faces": given}
+        self._create(
+            "crt_polyhedron_create",
+            material,
+            id,
+            shown,
+            places.ctypes.data,
+            len(places),
+            corners.ctypes.data,
+            sizes.ctypes.data,
+            len(sizes),
+        )
+
+
+class Hull(_Primitive):
+    """A Hull is the smallest convex solid that holds points, at least four that are not in one
+    plane."""
+
+    points = _Given[Any]()
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        *,
+        material: AnyMaterial | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        places = _points("Hull", points, "points")
+        shown = {"points": [tuple(point) for point in places.tolist()]}
+        self._create("crt_hull_create", material, id, shown, places.ctypes.data, len(places))
 
 
 class Disc(_Primitive):

@@ -54,6 +54,9 @@ std::shared_ptr<const HeightGrid> to_height_grid(const double* heights, std::uin
   return make_height_grid(std::move(copied), columns, rows);
 }
 
+void take(bool& field, bool argument, std::string_view) {
+  field = argument;
+}
 void take(double& field, double argument, std::string_view) {
   field = argument;
 }
@@ -118,7 +121,7 @@ crt_status crt_ellipsoid_create(const double center[3], const double radii[3], c
 }
 
 crt_status crt_thread_create(const double from[3], const double to[3], double diameter,
-                             double pitch, int left, crt_entity** out) {
+                             double pitch, int32_t left, crt_entity** out) {
   return create_of<crt::Thread>(out, from, to, diameter, pitch, left != 0);
 }
 

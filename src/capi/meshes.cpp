@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "capi/numbers.hpp"
 #include "capi/structs.hpp"
+#include "crt/polyhedron.hpp"
 #include "text/format.hpp"
 
 namespace crt::capi {
@@ -53,11 +55,6 @@ std::vector<Group> to_groups(const Number* numbers, std::uint64_t count, const c
   groups.reserve(count);
   for (std::uint64_t i = 0; i < count; ++i) groups.push_back(make(numbers + size * i));
   return groups;
-}
-
-std::vector<Vec3> to_vectors(const double* numbers, std::uint64_t count, const char* argument) {
-  return to_groups<Vec3, 3>(numbers, count, argument,
-                            [](const double* p) { return Vec3(p[0], p[1], p[2]); });
 }
 
 std::vector<TriangleIndices> to_triangles(const std::uint32_t* numbers, std::uint64_t count,
@@ -114,6 +111,11 @@ const MeshReport& report_of(const crt_entity* entity) {
 }
 
 }  // namespace
+
+std::vector<Vec3> to_vectors(const double* numbers, std::uint64_t count, const char* argument) {
+  return to_groups<Vec3, 3>(numbers, count, argument,
+                            [](const double* p) { return Vec3(p[0], p[1], p[2]); });
+}
 
 }  // namespace crt::capi
 
@@ -191,5 +193,30 @@ crt_status crt_mesh_create_with_options(const crt_mesh* mesh, const crt_mesh_opt
     return crt::triangle_mesh(to_vectors(given.positions, given.vertex_count, "positions"),
                               to_triangles(given.indices, given.triangle_count, "indices"),
                               to_attributes(given), to_mesh_options(options));
+  });
+}
+
+crt_status crt_polyhedron_create(const double* points, size_t point_count, const uint32_t* corners,
+                                 const uint32_t* sizes, size_t face_count, crt_entity** out) {
+  return create(out, [&] {
+    crt::Polyhedron solid{.points = to_vectors(points, point_count, "points")};
+    if (face_count > 0) {
+      require(corners, "corners");
+      require(sizes, "sizes");
+    }
+    for (const std::uint32_t size : std::span(sizes, face_count)) {
+      if (size > crt::most_corners_of_face) reject("sizes", "must be at most 1024");
+      solid.faces.emplace_back(corners, corners + size);
+      corners += size;
+    }
+    return solid;
+  });
+}
+
+crt_status crt_hull_create(const double* points, size_t count, crt_entity** out) {
+  return create(out, [&] {
+    // One more than is possible is refused, and more are not looked at.
+    return crt::Hull{.points =
+                         to_vectors(points, std::min(count, crt::most_hull_points + 1), "points")};
   });
 }

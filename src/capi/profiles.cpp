@@ -37,14 +37,6 @@ std::size_t looked_at(std::size_t count) {
   return std::min(count, most_path_points + 1);
 }
 
-std::vector<Vec3> to_path(const double* path, std::size_t count) {
-  if (count > 0) require(path, "path");
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i < looked_at(count); ++i)
-    points.push_back(to_vec3(path + 3 * i, "path"));
-  return points;
-}
-
 }  // namespace
 
 }  // namespace crt::capi
@@ -164,23 +156,23 @@ crt_status crt_revolution_create(const crt_profile* profile, const double from[3
 }
 
 crt_status crt_sweep_create(const crt_profile* profile, const double* path, size_t count,
-                            double bend, const double up[3], int closed, crt_entity** out) {
+                            double bend, const double up[3], int32_t closed, crt_entity** out) {
   return guarded([&] {
     require(profile, "profile");
     require(out, "out");
     *out = new crt_entity(crt::Sweep{.profile = crt::make_profile(profile->contours),
-                                     .path = to_path(path, count),
+                                     .path = to_vectors(path, looked_at(count), "path"),
                                      .bend = bend,
                                      .up = to_vec3(up, "up"),
                                      .closed = closed != 0});
   });
 }
 
-crt_status crt_tube_create(const double* path, const double* radii, size_t count, int smooth,
-                           int closed, double deviation, crt_entity** out) {
+crt_status crt_tube_create(const double* path, const double* radii, size_t count, int32_t smooth,
+                           int32_t closed, double deviation, crt_entity** out) {
   return guarded([&] {
     require(out, "out");
-    std::vector<crt::Vec3> points = to_path(path, count);
+    std::vector<crt::Vec3> points = to_vectors(path, looked_at(count), "path");
     if (count > 0) require(radii, "radii");
     *out = new crt_entity(crt::Tube{.path = std::move(points),
                                     .radii = {radii, radii + looked_at(count)},

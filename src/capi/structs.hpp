@@ -49,6 +49,8 @@ void give_text(const std::string& from, const char* argument, char* text, std::s
 /// Returns three numbers from the caller, and throws for NULL. The C++ interface checks whether
 /// they are good.
 Vec3 to_vec3(const double* numbers, const char* argument);
+/// Returns `count` of them. NULL is possible for none.
+std::vector<Vec3> to_vectors(const double* numbers, std::uint64_t count, const char* argument);
 
 /// Throws that the argument has a value which `list`, an enumeration of crt.h, has not.
 [[noreturn]] void reject_value(const char* argument, std::int32_t value, const char* list);

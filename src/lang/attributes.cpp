@@ -216,6 +216,29 @@ void convert(const Given& given, Context& context, std::vector<double>& field) {
   }
 }
 
+void convert(const Given& given, Context& context, std::vector<std::vector<std::uint32_t>>& field) {
+  const auto wrong = [&](const Value& value) {
+    reject(given,
+           text::format("must be a List of faces such as [[0, 1, 2, 3], [2, 1, 4]]; it has {} "
+                        "in it",
+                        type_with_article(value)));
+  };
+  field.clear();
+  for (const Value& face : get<List>(given)->items) {
+    const List* list = std::get_if<List>(&face);
+    if (list == nullptr) wrong(face);
+    context.spend(given.value_span, 1 + (*list)->items.size());
+    std::vector<std::uint32_t>& numbers = field.emplace_back();
+    for (const Value& item : (*list)->items) {
+      const auto* number = std::get_if<std::int64_t>(&item);
+      if (number == nullptr) wrong(item);
+      if (*number < 0 || *number > std::numeric_limits<std::uint32_t>::max())
+        reject(given, text::format("has the corner {}, which is no place in a List", *number));
+      numbers.push_back(static_cast<std::uint32_t>(*number));
+    }
+  }
+}
+
 void convert(const Given& given, Context&, Color& field) {
   const Color& color = get<Color>(given);
   for (const double channel : {color.r, color.g, color.b, color.a}) require_finite(given, channel);

@@ -51,6 +51,7 @@ void convert(const Given& given, Context& context, std::string& field);
 void convert(const Given& given, Context& context, Vec3& field);
 void convert(const Given& given, Context& context, std::vector<Vec3>& field);
 void convert(const Given& given, Context& context, std::vector<double>& field);
+void convert(const Given& given, Context& context, std::vector<std::vector<std::uint32_t>>& field);
 void convert(const Given& given, Context& context, Color& field);
 void convert(const Given& given, Context& context, Pattern& field);
 void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field);
@@ -109,6 +110,9 @@ constexpr std::string_view type_text(const Vec3*) {
 }
 constexpr std::string_view type_text(const std::vector<Vec3>*) {
   return "List of Vec3";
+}
+constexpr std::string_view type_text(const std::vector<std::vector<std::uint32_t>>*) {
+  return "List of Lists of Integers";
 }
 constexpr std::string_view type_text(const std::vector<double>*) {
   return "List of Floats, or Float";

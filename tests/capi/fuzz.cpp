@@ -107,12 +107,17 @@ void Session::make_primitive() {
             status = crt_revolution_create(profile, a.data(), c.data(), b[0], out);
             break;
           case 2:
+            if (input_.below(4) == 0) {
+              status = crt_hull_create(path, input_.below(4), out);
+              break;
+            }
             status = crt_sweep_create(profile, path, input_.below(4), r, b.data(),
-                                      static_cast<int>(input_.below(2)), out);
+                                      static_cast<std::int32_t>(input_.below(2)), out);
             break;
           default:
-            status = crt_tube_create(path, path, input_.below(4), static_cast<int>(input_.below(2)),
-                                     static_cast<int>(input_.below(2)), s, out);
+            status = crt_tube_create(path, path, input_.below(4),
+                                     static_cast<std::int32_t>(input_.below(2)),
+                                     static_cast<std::int32_t>(input_.below(2)), s, out);
             break;
         }
         crt_profile_release(profile);

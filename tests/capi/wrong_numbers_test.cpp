@@ -53,6 +53,7 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
           {"path", [&] { return crt_tube_create(p, u, 1, 0, 0, 0, &out); }},
           {"radii", [&] { return crt_tube_create(line, &bad, 1, 0, 0, 0, &out); }},
           {"deviation", [&] { return crt_tube_create(line, u, 2, 1, 0, bad, &out); }},
+          {"points", [&] { return crt_hull_create(corners.data(), 3, &out); }},
           {"from", [&] { return crt_thread_create(p, z, 8, 1, 0, &out); }},
           {"diameter", [&] { return crt_thread_create(z, u, bad, 1, 0, &out); }},
           {"pitch", [&] { return crt_thread_create(z, u, 8, bad, 0, &out); }},

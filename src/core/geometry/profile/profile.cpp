@@ -10,7 +10,7 @@
 #include "core/geometry/angles.hpp"
 #include "core/geometry/canonical_plane.hpp"
 #include "core/geometry/checks.hpp"
-#include "core/math/dyadic_vector.hpp"
+#include "core/math/exact_sides.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
 #include "text/format.hpp"
@@ -55,13 +55,6 @@ struct PreciseStep {
       : x(two_sum(to.x, -from.x)), y(two_sum(to.y, -from.y)) {}
   DoubleDouble squared_length() const { return x * x + y * y; }
 };
-
-/// Returns the sign of (to - from) x (point - from): 1 if the point is to the left.
-int side_of(const Vec3& point, const Vec3& from, const Vec3& to) {
-  const DyadicVector along = exactly(to) - exactly(from);
-  const DyadicVector offset = exactly(point) - exactly(from);
-  return (along[0] * offset[1] - along[1] * offset[0]).sign();
-}
 
 /// Returns how many times as long as its chord an arc is.
 double arc_by_chord(double bulge) {
