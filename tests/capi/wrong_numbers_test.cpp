@@ -11,7 +11,7 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
   const EntityHandle ball = sphere(zero, 1);
   const SceneHandle scene = new_scene();
   const double heights[4] = {0.5, 1, 0, 0.25};
-  const double line[6] = {0, 0, 0, 0, 0, 1};
+  const double line[9] = {0, 0, 0, 0, 0, 1, 0, 1, 1};
   const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
   const ProfileHandle square = square_profile();
   crt_mass mass;
@@ -51,7 +51,7 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
           {"bend", [&] { return crt_sweep_create(square.get(), line, 2, bad, u, 0, &out); }},
           {"up", [&] { return crt_sweep_create(square.get(), line, 2, 0, p, 0, &out); }},
           {"path", [&] { return crt_tube_create(p, u, 1, 0, 0, 0, &out); }},
-          {"radii", [&] { return crt_tube_create(line, &bad, 1, 0, 0, 0, &out); }},
+          {"radii", [&] { return crt_tube_create(line, p, 3, 0, 0, 0, &out); }},
           {"deviation", [&] { return crt_tube_create(line, u, 2, 1, 0, bad, &out); }},
           {"points", [&] { return crt_hull_create(corners.data(), 3, &out); }},
           {"from", [&] { return crt_thread_create(p, z, 8, 1, 0, &out); }},
