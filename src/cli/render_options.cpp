@@ -85,6 +85,12 @@ void add_frames(std::vector<OptionRow>& rows, RenderRequest& request) {
                "number",
        .take = [&request](const std::string& text) { request.frames = parse_frames(text); },
        .excludes = "--time"});
+  rows.push_back({.names = "--film",
+                  .type = "",
+                  .help = "renders the frames that the script's Settings have, to a film: without "
+                          "-o to an .mp4 beside the script",
+                  .take = into_flag("--film", request.film),
+                  .excludes = "--time"});
   rows.push_back(
       {.names = "--fps",
        .type = "NUMBER",
