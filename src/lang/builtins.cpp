@@ -39,7 +39,8 @@ Value Arguments::call_argument(std::size_t i, std::span<const Value> values) con
 }
 
 void Arguments::expect_radians() const {
-  const auto* literal = std::get_if<Literal>(&expressions_[0]->node);
+  const auto* sign = std::get_if<Unary>(&expressions_[0]->node);
+  const auto* literal = std::get_if<Literal>(&(sign ? sign->operand : expressions_[0])->node);
   const auto* whole = literal ? std::get_if<std::int64_t>(&literal->value) : nullptr;
   constexpr std::int64_t beyond_turn = 6;
   if (!whole || *whole <= beyond_turn || context.compat == compat_2015) return;
