@@ -74,7 +74,7 @@ def code_span(span: str) -> str:
     if not re.search(r"[\"'\\@]", span):
         return span
     text = span[1:-1].replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
-    text = text.replace("\\", "\\\\").replace("@", "\\@")
+    text = text.replace("\\", "\\\\").replace("@", "\\@").replace("#", "\\#")
     return "<code>" + text.replace('"', "&quot;").replace("'", "&apos;") + "</code>"
 
 

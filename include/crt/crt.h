@@ -562,6 +562,9 @@ typedef struct crt_settings {
   int32_t denoise;
   int32_t unit; /**< a crt_unit: what a scene unit is, which neither the geometry nor the picture
                    knows; default CRT_UNIT_M. Since 1.1. */
+  int32_t frames; /**< of an animation, t = 0 to frames - 1, in [0, 1000000]; default 0: not said.
+                     Since 1.1. */
+  int32_t reserved_4; /**< must be 0 */
 } crt_settings;
 
 /** Fills in a checker. The values that other types need get sensible defaults too. */

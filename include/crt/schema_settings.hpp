@@ -115,6 +115,8 @@ inline constexpr auto table<Settings> = Table{
           "`2015` for a [script of that year](compat.md), see below"),
     field("unit", &Settings::unit, any, {.option = "what a scene unit is: m, cm, mm or in"},
           "what a scene unit is: `\"m\"`, `\"cm\"`, `\"mm\"` or `\"in\"`"),
+    field("frames", &Settings::frames, between(0, 1e6), {},
+          "of a film, `t` from 0 to `frames` - 1; 0: not said"),
 };
 
 }  // namespace crt::schema

@@ -141,6 +141,9 @@ struct Settings {
   int compat = 0;
   /// What a scene unit is. It changes neither the geometry nor the picture.
   Unit unit = Unit::m;
+  /// The number of frames of an animation, t = 0 to frames - 1, in [0, 1000000]. 0 says nothing. A
+  /// single picture does not depend on it.
+  int frames = 0;
 };
 
 /// Returns the settings that a script with `compat -> 2015` begins with. Files store light as it is

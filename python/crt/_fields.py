@@ -299,6 +299,12 @@ FIELDS = {
             "a Unit: what a scene unit is, which neither the geometry nor the picture knows; "
             "default Unit.M. Since 1.1.",
         ),
+        (
+            "int32_t frames",
+            "of an animation, t = 0 to frames - 1, in [0, 1000000]; default 0: not said. Since "
+            "1.1.",
+        ),
+        ("int32_t reserved_4", "must be 0"),
     ),
     "crt_mesh": (
         ("int32_t reserved", "must be 0"),

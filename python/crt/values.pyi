@@ -1041,6 +1041,8 @@ class Settings(_Struct):
       accuracy. Default 0. Since 1.1.
     - unit (Unit, or its name): a Unit: what a scene unit is, which neither the geometry nor the
       picture knows; default Unit.M. Since 1.1.
+    - frames (int): of an animation, t = 0 to frames - 1, in [0, 1000000]; default 0: not said.
+      Since 1.1.
     """
     width: int
     height: int
@@ -1074,6 +1076,7 @@ class Settings(_Struct):
     clamp: float
     denoise: int
     unit: Unit | int | UnitName
+    frames: int
     def __init__(
         self,
         *,
@@ -1109,6 +1112,7 @@ class Settings(_Struct):
         clamp: SupportsFloat = ...,
         denoise: SupportsIndex = ...,
         unit: Unit | int | UnitName = ...,
+        frames: SupportsIndex = ...,
     ) -> None: ...
     def set(
         self,
@@ -1145,6 +1149,7 @@ class Settings(_Struct):
         clamp: SupportsFloat = ...,
         denoise: SupportsIndex = ...,
         unit: Unit | int | UnitName = ...,
+        frames: SupportsIndex = ...,
     ) -> None: ...
 
 class RenderStats(_Struct):

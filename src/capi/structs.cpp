@@ -171,7 +171,9 @@ std::span<const CField> c_fields<crt_settings>() {
                                         CRT_FIELD(S, exposure),
                                         CRT_FIELD(S, clamp),
                                         CRT_FIELD(S, denoise),
-                                        CRT_FIELD(S, unit)};
+                                        CRT_FIELD(S, unit),
+                                        CRT_FIELD(S, frames),
+                                        CRT_FIELD(S, reserved_4)};
   return fields;
 }
 

@@ -64,6 +64,7 @@ struct SectionPlane {
 struct RenderRequest : PictureRequest {
   std::vector<std::filesystem::path> scenes;
   std::optional<FrameRange> frames;
+  bool film = false;                    ///< of the frames of the script, if no others are named
   double frames_per_second = 24;        ///< of a film
   std::filesystem::path keep_frames;    ///< the pictures of a film go into this folder, too
   std::optional<SectionPlane> section;  ///< cuts scenes open, in place of their cameras' own

@@ -51,10 +51,12 @@ class RenderJob {
   /// Makes a picture, or several frames. Returns false if that failed, which is then reported.
   bool render_planned(const PlannedPicture& picture) {
     has_warned_ = false;
+    // The frames of a film are known when its script has run for the first one.
+    frames_ = request_.frames.value_or(FrameRange{});
     try {
       if (picture.is_film) return render_film(picture);
       if (!request_.frames) return write_picture(picture, request_.script.t, std::nullopt);
-      for (int frame = request_.frames->first; frame <= request_.frames->last; ++frame) {
+      for (int frame = frames_.first; frame <= frames_.last; ++frame) {
         if (!write_picture(picture, frame, frame)) return false;
       }
       return true;
@@ -88,7 +90,7 @@ class RenderJob {
   bool render_film(const PlannedPicture& planned) {
     std::optional<Film> film;
     FilmShape shape{.frames_per_second = request_.frames_per_second};
-    for (int frame = request_.frames->first; frame <= request_.frames->last; ++frame) {
+    for (int frame = frames_.first; frame <= frames_.last; ++frame) {
       const std::string name = fmt::format("{} ({})", planned.output.string(), frame);
       std::optional<Image> image = render_at(planned, frame, name, "frame.png");
       if (!image) return false;
@@ -110,8 +112,7 @@ class RenderJob {
     }
     film->finish();
     reporter_.note(fmt::format("{}: {} frames, {:g} a second", planned.output.string(),
-                               request_.frames->last - request_.frames->first + 1,
-                               request_.frames_per_second));
+                               frames_.last - frames_.first + 1, request_.frames_per_second));
     return true;
   }
 
@@ -150,7 +151,7 @@ class RenderJob {
     ScriptResult result = run_scene(planned.script, options, is_free, reporter_);
     std::optional<Scene>& scene = result.scene;
     const double parse_seconds = watch.seconds();
-    if (!scene) return std::nullopt;
+    if (!scene || !take_frames(planned, scene->settings)) return std::nullopt;
     warn_of_still(planned, result);
     const std::optional<Region>& region = request_.render.region;
     if (region && !reporter_.accept_region(*region, scene->settings)) return std::nullopt;
@@ -169,10 +170,24 @@ class RenderJob {
     return image;
   }
 
+  /// Takes the frames of a film from its script, if no others are asked for. Returns false if it
+  /// says none, which is then reported.
+  bool take_frames(const PlannedPicture& planned, const Settings& settings) {
+    if (!planned.is_film || request_.frames) return true;
+    frames_.last = settings.frames - 1;
+    if (settings.frames > 0) return true;
+    reporter_.add(
+        ErrorCode::invalid_argument,
+        fmt::format("'{}' is a film: say of which frames, by frames -> 48 in the Settings "
+                    "of '{}', or such as --frames 1-48",
+                    planned.output.string(), planned.script.name()),
+        ExitCode::usage);
+    return false;
+  }
+
   /// Warns of frames that will be the same.
   void warn_of_still(const PlannedPicture& planned, const ScriptResult& result) {
-    const bool is_film = request_.frames && request_.frames->first < request_.frames->last;
-    if (is_film && !result.reads_time)
+    if (frames_.first < frames_.last && !result.reads_time)
       reporter_.warn(fmt::format("all frames of '{}' are the same, as it does not read t",
                                  planned.script.name()));
   }
@@ -211,8 +226,8 @@ class RenderJob {
   /// Writes one object for one picture, and a list for frames or several scripts.
   void write_stats(bool several_scripts) try {
     if (request_.stats.empty()) return;
-    const std::string json =
-        request_.frames || several_scripts ? to_json(reports_) : to_json(reports_.front());
+    const bool is_list = several_scripts || reports_.front().frame;
+    const std::string json = is_list ? to_json(reports_) : to_json(reports_.front());
     if (request_.stats == standard_stream) {
       reporter_.print(json, Reporter::IfClosed::fails);
     } else {
@@ -227,6 +242,7 @@ class RenderJob {
   ProgressStyle style_;
   const InterruptScope* interrupt_ = nullptr;
   Projection projection_{};
+  FrameRange frames_{};
   bool has_warned_ = false;
   std::vector<PictureReport> reports_;
 };

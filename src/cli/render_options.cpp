@@ -14,7 +14,8 @@ constexpr std::string_view render_footer =
     R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, with
 exposure, tone map and gamma), .exr and .hdr (linear light). Nothing is left behind under its name
 unless it is whole. A link is followed, and what is a device or a pipe is written to as it is.
-With --frames, .gif, .webp and .mp4 are films of all frames, which the program ffmpeg makes.
+With .gif, .webp and .mp4 it is a film of all frames, which the program ffmpeg makes: of --frames,
+or of those that the script's Settings have.
 An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo,
 and of each pixel how many samples it has (samples) and how far it may be from the truth (error).
 As a script, - is standard input. As the picture, it is standard output, which gets PNG, or EXR with
@@ -27,6 +28,7 @@ Examples:
   crt render - -o - <scene.crt | chafa                      between programs: shown in a terminal
   crt render film.crt --frames 1-48                         film_0001.png to film_0048.png
   crt render film.crt --frames 1-48 -o film.gif --fps 12    one film of four seconds
+  crt render film.crt --film                                film.mp4, as long as the script says
   crt render scene.crt -o scene.exr --aov depth,id          distances and objects beside the colours
   crt render scene.crt --stats -                            what it took, as JSON)";
 
@@ -85,6 +87,12 @@ void add_frames(std::vector<OptionRow>& rows, RenderRequest& request) {
                "number",
        .take = [&request](const std::string& text) { request.frames = parse_frames(text); },
        .excludes = "--time"});
+  rows.push_back({.names = "--film",
+                  .type = "",
+                  .help = "renders the frames that the script's Settings have, to a film: without "
+                          "-o to an .mp4 beside the script",
+                  .take = into_flag("--film", request.film),
+                  .excludes = "--time"});
   rows.push_back(
       {.names = "--fps",
        .type = "NUMBER",

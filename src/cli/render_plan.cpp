@@ -28,6 +28,10 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, unreachable);
 }
 
+bool makes_film(const RenderRequest& request) {
+  return request.film || is_film(request.output);
+}
+
 void refuse_senseless(const RenderRequest& request) {
   const bool several = request.scenes.size() > 1;
   const bool to_stream = request.output == standard_stream;
@@ -48,13 +52,13 @@ void refuse_senseless(const RenderRequest& request) {
             fmt::format("several scripts need a folder for their pictures, but '{}' is none",
                         request.output.string()));
   refuse_if(to_stream && request.frames, "standard output takes one picture, not --frames");
+  refuse_if(to_stream && request.film, "standard output takes one picture, not --film");
   refuse_if(to_stream && request.stats == standard_stream,
             "standard output takes the picture or the statistics: name a file for one of them");
-  const bool film = is_film(request.output);
-  refuse_if(film && !request.frames,
-            fmt::format("'{}' is a film: say of which frames, such as --frames 1-48",
-                        request.output.string()));
+  const bool film = makes_film(request);
   refuse_if(film && request.render.aovs != Aovs{}, "a film has colours alone, and no --aov");
+  refuse_if(film && !request.render.checkpoint.empty(), "--checkpoint is for one picture");
+  refuse_if(film && request.script.t != 0, "a film has a frame for each time, and no --time");
   refuse_if(
       !film && !request.keep_frames.empty(),
       fmt::format("--keep-frames is for films: name one with -o, ending in {}", film_endings()));
@@ -62,7 +66,7 @@ void refuse_senseless(const RenderRequest& request) {
 
 fs::path output_for(const fs::path& scene, const RenderRequest& request) {
   fs::path beside = scene;
-  beside.replace_extension(usual_ending(request));
+  beside.replace_extension(request.film ? ".mp4" : usual_ending(request));
   if (request.output.empty()) return beside;
   const bool names_folder = request.scenes.size() > 1 || !request.output.has_filename();
   return names_folder && is_folder(request.output) ? request.output / beside.filename()
@@ -93,6 +97,10 @@ std::vector<PlannedPicture> plan(const RenderRequest& request) {
     if (!outputs.insert(output.lexically_normal()).second) {
       throw Senseless(fmt::format("two scripts would have the picture '{}': render them one by one",
                                   output.string()));
+    }
+    if (request.film && !is_film(output)) {
+      throw Senseless(fmt::format("--film makes a film, and '{}' is none: name one ending in {}",
+                                  output.string(), film_endings()));
     }
     // Standard input is read last, when the rest of the command line is known to be right.
     pictures.push_back({.script = ScriptSource(scene == standard_stream ? fs::path() : scene),

@@ -35,6 +35,7 @@ bool blank_between(const Piece& left, const Piece& right) {
     case Role::opening:
     case Role::suffix_opening:
     case Role::opening_modifiers:
+    case Role::joint:
       return false;
     case Role::prefix:
       // Two minus signs must not touch: they would begin a comment.
@@ -42,8 +43,9 @@ bool blank_between(const Piece& left, const Piece& right) {
     default:
       break;
   }
-  return right.role != Role::comma && right.role != Role::suffix_opening &&
-         right.role != Role::closing && right.role != Role::closing_modifiers;
+  return right.role != Role::comma && right.role != Role::joint &&
+         right.role != Role::suffix_opening && right.role != Role::closing &&
+         right.role != Role::closing_modifiers;
 }
 
 /// A Line is one line of the result.

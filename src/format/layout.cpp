@@ -1,7 +1,8 @@
 #include "format/layout.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <utility>
 #include <variant>
 
 #include "lang/utf8.hpp"
@@ -21,19 +22,23 @@ std::string_view without_blanks_behind(std::string_view text) {
   return text.substr(0, text.find_last_not_of(" \t\v\f") + 1);
 }
 
-/// Finds the operators that stand before their operand. The tokens alone do not show which do.
-std::set<std::uint32_t> prefixes(const lang::Script& script) {
-  std::set<std::uint32_t> places;
+/// Finds the operators that stand before their operand, and the colons of slices. The tokens alone
+/// do not show which these are.
+std::map<std::uint32_t, Role> roles_of_signs(const lang::Script& script) {
+  std::map<std::uint32_t, Role> roles;
   for (const lang::Expression& expression : script.expressions) {
-    if (std::holds_alternative<lang::Unary>(expression.node)) places.insert(expression.span.begin);
+    if (std::holds_alternative<lang::Unary>(expression.node))
+      roles[expression.span.begin] = Role::prefix;
+    if (const auto* slice = std::get_if<lang::Slice>(&expression.node))
+      roles[slice->colon.begin] = Role::joint;
   }
-  return places;
+  return roles;
 }
 
 /// Finds the role of each token in turn.
 class Roles {
  public:
-  explicit Roles(const lang::Script& script) : prefixes_(prefixes(script)) {}
+  explicit Roles(const lang::Script& script) : signs_(roles_of_signs(script)) {}
 
   Role next(const lang::Token& token, std::string_view text) {
     const Role role = role_of(token, text);
@@ -59,6 +64,13 @@ class Roles {
     switch (token.kind) {
       case Kind::S_COMMA:
         return Role::comma;
+      case Kind::S_DOT:
+      case Kind::S_STRING_MIDDLE:
+        return Role::joint;
+      case Kind::S_STRING_START:
+        return Role::opening;
+      case Kind::S_STRING_END:
+        return Role::closing;
       case Kind::S_LEFT_PARENTHESIS:
       case Kind::S_LEFT_BRACKET:
         return follows_operand() ? Role::suffix_opening : Role::opening;
@@ -67,6 +79,7 @@ class Roles {
         return Role::opening;
       case Kind::S_LEFT_BRACE:
       case Kind::S_DERIVING_BRACE:
+      case Kind::S_DICTIONARY_BRACE:
         return Role::opening_brace;
       case Kind::S_MODIFIER_START:
         return Role::opening_modifiers;
@@ -80,7 +93,7 @@ class Roles {
       default:
         break;
     }
-    if (prefixes_.contains(token.span.begin)) return Role::prefix;
+    if (const auto sign = signs_.find(token.span.begin); sign != signs_.end()) return sign->second;
     const char first = text[0];
     const bool is_sign = std::string_view("+-*/%^!<>=&|?:").find(first) != std::string_view::npos;
     return is_sign ? Role::sign : Role::word;
@@ -88,10 +101,11 @@ class Roles {
 
   bool follows_operand() const {
     return before_ == Kind::S_IDENTIFIER || before_ == Kind::S_STRING ||
-           before_ == Kind::S_RIGHT_PARENTHESIS || before_ == Kind::S_RIGHT_BRACKET;
+           before_ == Kind::S_STRING_END || before_ == Kind::S_RIGHT_PARENTHESIS ||
+           before_ == Kind::S_RIGHT_BRACKET;
   }
 
-  std::set<std::uint32_t> prefixes_;
+  std::map<std::uint32_t, Role> signs_;
   int open_modifiers_ = 0;
   std::vector<int> open_;  ///< the modifiers that were open around each open bracket
   lang::Grammar::symbol_kind_type before_ = Kind::S_YYEMPTY;

@@ -17,11 +17,12 @@ enum class Role {
   sign,    ///< an operator between two operands, or any other sign with blanks around it
   prefix,  ///< an operator before its operand
   comma,
-  opening,         ///< ( or [ that begins an expression
+  joint,           ///< a sign without blanks around it: that of a part or a slice
+  opening,         ///< ( or [ that begins an expression, or a string up to a value
   suffix_opening,  ///< ( or [ of a call or an index
   opening_brace,
   opening_modifiers,
-  closing,  ///< ) or ]
+  closing,  ///< ) or ], or a string behind a value
   closing_brace,
   closing_modifiers,
   comment,

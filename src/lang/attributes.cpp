@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "crt/curves.hpp"
+#include "lang/colors.hpp"
 #include "lang/failure.hpp"
 #include "lang/fields.hpp"
 #include "lang/suggestion.hpp"
+#include "lang/utf8.hpp"
 #include "text/format.hpp"
 #include "text/letters.hpp"
 
@@ -37,6 +39,19 @@ const Wanted& get(const Given& given) {
   const auto* value = std::get_if<Wanted>(&given.value);
   if (!value) wrong_type(given);
   return *value;
+}
+
+/// Returns a colour that is given as one, or as a text such as "#ff8800".
+std::optional<Color> color_of(const Given& given, const Value& value) {
+  if (const auto* color = std::get_if<Color>(&value)) return *color;
+  const auto* text = std::get_if<String>(&value);
+  if (!text) return std::nullopt;
+  const std::optional<Color> color = color_of_text((*text)->text);
+  if (!color) {
+    reject(given, text::format("must be a Color or a text such as \"#ff8800\", not \"{}\"",
+                               abbreviated((*text)->text)));
+  }
+  return color;
 }
 
 /// The memory of a stop of a pattern is paid for by so many steps, whenever the pattern is copied.
@@ -143,10 +158,11 @@ std::size_t choose(const Given& given, std::span<const schema::Name> words) {
   reject(given, text::format("must be {}{}", enumerate(quoted), suggestion));
 }
 
-void convert(const Given& given, Context&, double& field) {
+void convert(const Given& given, Context& context, double& field) {
   double storage = 0;
   const double* number = as_float(given.value, storage);
   if (!number) wrong_type(given);
+  if (number == &storage) context.used_as_float(given.value_span);
   require_finite(given, *number);
   field = *number;
 }
@@ -240,9 +256,11 @@ void convert(const Given& given, Context& context, std::vector<std::vector<std::
 }
 
 void convert(const Given& given, Context&, Color& field) {
-  const Color& color = get<Color>(given);
-  for (const double channel : {color.r, color.g, color.b, color.a}) require_finite(given, channel);
-  field = color;
+  const std::optional<Color> color = color_of(given, given.value);
+  if (!color) wrong_type(given);
+  for (const double channel : {color->r, color->g, color->b, color->a})
+    require_finite(given, channel);
+  field = *color;
 }
 
 void convert(const Given& given, Context& context, Pattern& field) {
@@ -275,7 +293,7 @@ void convert(const Given& given, Context& context, std::vector<ColorStop>& field
     double storage = 0;
     const bool is_pair = stop && (*stop)->items.size() == 2;
     const double* position = is_pair ? as_float((*stop)->items[0], storage) : nullptr;
-    const Color* color = is_pair ? std::get_if<Color>(&(*stop)->items[1]) : nullptr;
+    const std::optional<Color> color = is_pair ? color_of(given, (*stop)->items[1]) : std::nullopt;
     if (!position || !color)
       reject(given, "must be a List such as [[0, rgb(1, 0, 0)], [0.4, rgb(0, 1, 0)], ...]");
     field.push_back({*position, *color});

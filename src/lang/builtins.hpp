@@ -33,12 +33,21 @@ class Arguments {
   Span span(std::size_t i) const { return expressions_[i]->span; }
   std::span<const Value> values() const { return values_; }
 
+  /// A number that an argument gives as a Float.
   double number(std::size_t i) const;
+  std::int64_t integer(std::size_t i) const;
+  const ListValue& list(std::size_t i) const;
   Vec3 vector(std::size_t i) const;
   bool all_integers() const;
   /// Returns whether any is a field, and so the result is one.
   bool any_field() const;
   Field field(std::size_t i) const;
+
+  /// Calls the argument, a macro or a built-in, with values.
+  Value call_argument(std::size_t i, std::span<const Value> values) const;
+
+  /// Warns if the first argument, an angle, is a whole number of degrees.
+  void expect_radians() const;
 
   [[noreturn]] void wrong_type(std::size_t i, std::string_view wanted) const;
 
@@ -58,6 +67,8 @@ struct Builtin {
   std::size_t least_arguments = 0;
   std::size_t max_arguments = 0;
   Value (*function)(const Arguments&) = nullptr;
+  /// Says that it calls what it is given, see Arguments::call_argument().
+  bool calls_others = false;
 };
 
 /// Returns all built-ins.
@@ -66,7 +77,9 @@ std::span<const Builtin> builtins();
 // These return the parts of the table, by subject.
 std::span<const Builtin> number_builtins();
 std::span<const Builtin> vector_builtins();
+std::span<const Builtin> easing_builtins();
 std::span<const Builtin> list_builtins();
+std::span<const Builtin> string_builtins();
 std::span<const Builtin> contour_builtins();
 std::span<const Builtin> measure_builtins();
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
@@ -15,6 +16,8 @@
 namespace crt::lang {
 
 namespace {
+
+constexpr double degrees_in_half_turn = 180;
 
 using FieldFunction = Field (*)(const Field&);
 using FieldFunctionOfTwo = Field (*)(const Field&, const Field&);
@@ -30,6 +33,20 @@ template <double (*function)(double), FieldFunction field_function>
 Value of_number(const Arguments& arguments) {
   if (arguments.any_field()) return of_field<field_function>(arguments);
   return function(arguments.number(0));
+}
+
+template <double (*function)(double), FieldFunction field_function>
+Value of_angle(const Arguments& arguments) {
+  arguments.expect_radians();
+  return of_number<function, field_function>(arguments);
+}
+
+Value in_degrees(const Arguments& arguments) {
+  return arguments.number(0) * degrees_in_half_turn / std::numbers::pi;
+}
+
+Value in_radians(const Arguments& arguments) {
+  return arguments.number(0) * std::numbers::pi / degrees_in_half_turn;
 }
 
 // The standard's functions are overloaded, and a template argument must be one of them.
@@ -139,13 +156,18 @@ Value clamp(const Arguments& arguments) {
       return min(max(arguments.field(0), arguments.field(1)), arguments.field(2));
     });
   }
+  const auto refuse = [&] { fail(arguments.call, "clamp needs low <= high"); };
+  if (arguments.all_integers()) {
+    const std::int64_t low = arguments.integer(1);
+    const std::int64_t high = arguments.integer(2);
+    if (low > high) refuse();
+    return std::clamp(arguments.integer(0), low, high);
+  }
   const double low = arguments.number(1);
   const double high = arguments.number(2);
   const double x = arguments.number(0);
-  if (!(low <= high)) fail(arguments.call, "clamp needs low <= high");
-  if (!arguments.all_integers()) return std::clamp(x, low, high);
-  return std::clamp(std::get<std::int64_t>(arguments[0]), std::get<std::int64_t>(arguments[1]),
-                    std::get<std::int64_t>(arguments[2]));
+  if (!(low <= high)) refuse();
+  return std::clamp(x, low, high);
 }
 
 Value random_number(const Arguments& arguments) {
@@ -176,13 +198,15 @@ Value noise(const Arguments& arguments) {
 }
 
 constexpr std::array numbers_table = {
-    Builtin{"sin", "sin(x)", 1, 1, of_number<sine, crt::sin>},
-    Builtin{"cos", "cos(x)", 1, 1, of_number<cosine, crt::cos>},
-    Builtin{"tan", "tan(x)", 1, 1, of_number<tangent, crt::tan>},
+    Builtin{"sin", "sin(x)", 1, 1, of_angle<sine, crt::sin>},
+    Builtin{"cos", "cos(x)", 1, 1, of_angle<cosine, crt::cos>},
+    Builtin{"tan", "tan(x)", 1, 1, of_angle<tangent, crt::tan>},
     Builtin{"asin", "asin(x)", 1, 1, of_number<arc_sine, crt::asin>},
     Builtin{"acos", "acos(x)", 1, 1, of_number<arc_cosine, crt::acos>},
     Builtin{"atan", "atan(x)", 1, 1, of_number<arc_tangent, crt::atan>},
     Builtin{"atan2", "atan2(y, x)", 2, 2, arc_tangent_of_two},
+    Builtin{"deg", "deg(x)", 1, 1, in_degrees},
+    Builtin{"rad", "rad(x)", 1, 1, in_radians},
     Builtin{"sqrt", "sqrt(x)", 1, 1, of_number<square_root, crt::sqrt>},
     Builtin{"pow", "pow(base, exponent)", 2, 2, power},
     Builtin{"exp", "exp(x)", 1, 1, of_number<exponential, crt::exp>},

@@ -47,6 +47,14 @@ std::string meant(std::string_view name) {
   return text::format("; there are {}", enumerate(listed, "and"));
 }
 
+/// Returns an angle with a unit, such as 45deg, that stands somewhere as a number, or null.
+const Expression* written_angle(const Expression& expression) {
+  const auto* unary = std::get_if<Unary>(&expression.node);
+  const Expression& number = unary ? *unary->operand : expression;
+  const auto* literal = std::get_if<Literal>(&number.node);
+  return literal && literal->is_angle ? &number : nullptr;
+}
+
 class ScriptChecker {
  public:
   ScriptChecker(int compat, const SymbolTable& symbols, Reporter& reporter)
@@ -74,6 +82,9 @@ class ScriptChecker {
                         text::format("the attribute '{}' is given twice", name));
       } else {
         given[attribute.index] = true;
+        // A rule of its own means that the script's unit, degrees, is not the core's.
+        if (!type.attributes[attribute.index].rule.empty())
+          refuse_angle(*attribute.value, text::format("'{}'", name));
       }
     }
     std::vector<std::string> missing;
@@ -87,7 +98,27 @@ class ScriptChecker {
                                  missing.size() > 1 ? "s" : "", enumerate(missing, "and")));
   }
 
+  /// Refuses <rotate vec3(0, 45deg, 0)>, as that would be 45 degrees in radians taken for degrees.
+  void check_modifiers(const Modified& modified) {
+    for (const Modifier& modifier : modified.modifiers) {
+      const auto* vector = std::get_if<Call>(&modifier.operand->node);
+      const auto* name = vector ? std::get_if<Name>(&vector->callee->node) : nullptr;
+      if (modifier.kind != ModifierKind::rotate || !name) continue;
+      if (symbols_.name(name->symbol) != "vec3") continue;
+      for (const Expression* angle : vector->arguments) refuse_angle(*angle, "'rotate'");
+    }
+  }
+
  private:
+  /// Refuses an angle with a unit, which is one in radians, where degrees are to be.
+  void refuse_angle(const Expression& value, const std::string& what) {
+    if (const Expression* angle = written_angle(value)) {
+      reporter_.error(angle->span, text::format("{} is in degrees already: write the number alone, "
+                                                "without a unit",
+                                                what));
+    }
+  }
+
   /// Reports an unknown attribute. Returns the index of the one that was most likely meant, or the
   /// number of attributes if none was.
   std::size_t unknown_attribute(const ObjectType& type, Span span, std::string_view name) {
@@ -125,6 +156,13 @@ class AssignedNames : public TreeWalk<AssignedNames> {
     names_.insert(assignment.name.symbol);
     visit(assignment.value);
   }
+  void operator()(const Destructuring& assignment) {
+    for (const NamePlace& name : assignment.names) names_.insert(name.symbol);
+    visit(assignment.value);
+  }
+  void operator()(const Import& import) {
+    if (import.name) names_.insert(import.name->symbol);
+  }
 
  private:
   std::set<Symbol>& names_;
@@ -143,6 +181,8 @@ void check(Script& script, int compat, const SymbolTable& symbols, Reporter& rep
   };
   for (Expression& expression : script.expressions) {
     if (auto* object = std::get_if<ObjectLiteral>(&expression.node)) checker.check_object(*object);
+    if (const auto* modified = std::get_if<Modified>(&expression.node))
+      checker.check_modifiers(*modified);
   }
   for (Statement& statement : script.statements.statements) {
     if (auto* settings = std::get_if<SettingsBlock>(&statement.node)) {

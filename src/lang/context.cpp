@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "lang/failure.hpp"
@@ -131,16 +132,104 @@ Value Context::make_string(Span span, std::string text) {
   return std::make_shared<const StringValue>(StringValue{std::move(text), std::move(charge)});
 }
 
+int Context::depth_around(Span span, int inside) const {
+  if (inside >= deepest_list)
+    pass_limit(span, text::format("lists nested more than {} deep", deepest_list));
+  return inside + 1;
+}
+
 Value Context::make_list(Span span, std::vector<Value> items) {
   spend_on_items(span, items);
-  int depth = 1;
-  for (const Value& item : items) {
-    if (const List* list = std::get_if<List>(&item)) depth = std::max(depth, (*list)->depth + 1);
-  }
-  if (depth > deepest_list)
-    pass_limit(span, text::format("lists nested more than {} deep", deepest_list));
+  int inside = 0;
+  for (const Value& item : items) inside = std::max(inside, depth_of(item));
+  const int depth = depth_around(span, inside);
   Charge charge = charge_memory(span, sizeof(ListValue) + items.capacity() * sizeof(Value));
   return std::make_shared<ListValue>(ListValue{std::move(items), depth, std::move(charge)});
+}
+
+Value Context::make_dictionary(Span span, Variables entries) {
+  constexpr std::size_t bytes_of_entry = 64 + sizeof(Value);
+  constexpr std::size_t steps_of_entry = 2;
+  spend(span, entries.size() * steps_of_entry);
+  int inside = 0;
+  for (const auto& [name, value] : entries) inside = std::max(inside, depth_of(value));
+  const int depth = depth_around(span, inside);
+  Charge charge = charge_memory(span, sizeof(DictionaryValue) + entries.size() * bytes_of_entry);
+  return std::make_shared<const DictionaryValue>(
+      DictionaryValue{std::move(entries), depth, std::move(charge)});
+}
+
+void ListMaker::add(Value item) {
+  if (items_.size() == items_.capacity()) {
+    constexpr std::size_t least_capacity = 8;
+    const std::size_t before = items_.capacity();
+    const std::size_t after = std::max(least_capacity, 2 * before);
+    context_.check_list_size(span_, items_.size() + 1);
+    charge_.add(context_.charge_memory(span_, (after - before) * sizeof(Value)));
+    items_.reserve(after);
+  }
+  depth_inside_ = std::max(depth_inside_, depth_of(item));
+  items_.push_back(std::move(item));
+}
+
+Value ListMaker::finish() {
+  context_.check_list_size(span_, items_.size());
+  const int depth = context_.depth_around(span_, depth_inside_);
+  charge_.add(context_.charge_memory(span_, sizeof(ListValue)));
+  return std::make_shared<ListValue>(ListValue{std::move(items_), depth, std::move(charge_)});
+}
+
+namespace {
+
+std::uint64_t key_of(Span span) {
+  constexpr int bits_of_end = 32;
+  return (std::uint64_t{span.begin} << bits_of_end) | span.end;
+}
+
+}  // namespace
+
+void Context::note_truncation(Span value, const Truncation& division) {
+  truncations_.try_emplace(key_of(value), division);
+  has_truncations_ = true;
+}
+
+void Context::forget_truncation(Span value) {
+  truncations_.erase(key_of(value));
+}
+
+const Context::Truncation* Context::truncation_of(Span value) const {
+  const auto found = truncations_.find(key_of(value));
+  return found == truncations_.end() ? nullptr : &found->second;
+}
+
+void Context::note_variable(Symbol name, Span value) {
+  if (!has_truncations_) return;
+  if (const Truncation* division = truncation_of(value)) {
+    truncated_variables_.insert_or_assign(name, *division);
+  } else {
+    truncated_variables_.erase(name);
+  }
+}
+
+void Context::note_reading(Symbol name, Span span, const Value& value) {
+  forget_truncation(span);
+  const auto found = truncated_variables_.find(name);
+  if (found == truncated_variables_.end()) return;
+  // Another variable may have that name, too.
+  const auto* number = std::get_if<std::int64_t>(&value);
+  const Truncation division = found->second;
+  if (number && *number == division.dividend / division.divisor) note_truncation(span, division);
+}
+
+void Context::used_as_float(Span value) {
+  const Truncation* const division = truncation_of(value);
+  if (!division || !reported_divisions_.insert(key_of(division->sign)).second) return;
+  const auto [a, b] = std::pair(division->dividend, division->divisor);
+  reporter.warning(
+      division->sign,
+      text::format("{0} / {1} of two Integers is {2}, without the rest, and used as a Float: with "
+                   "{1}.0 it is {3}; if {2} is meant, write floor(a / b)",
+                   a, b, a / b, float_text(static_cast<double>(a) / static_cast<double>(b))));
 }
 
 double Context::length(Span span, double value, Unit unit_of_value) {

@@ -3,8 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -26,7 +30,7 @@ constexpr std::size_t bytes_per_step = 64;
 /// An entity takes about as long to make as so many expressions to evaluate.
 constexpr std::size_t steps_per_entity = 16;
 
-/// Lists within lists are at most this deep, as freeing them takes stack.
+/// Lists and dictionaries within one another are at most this deep, as freeing them takes stack.
 constexpr int deepest_list = 100;
 
 class Context {
@@ -49,6 +53,10 @@ class Context {
   std::optional<Unit> unit;
   Random random;
   Random2015 random_2015;
+  /// Calls a macro or a built-in, under a name for messages. The interpreter sets it.
+  std::function<Value(std::string_view name, Span call, const Value& callee,
+                      std::span<const Value> arguments)>
+      call;
 
   /// Counts an expression evaluated at `span`. This is the hot path.
   void step(Span span) {
@@ -69,6 +77,10 @@ class Context {
   // Strings and lists are made here, where they are paid for.
   Value make_string(Span span, std::string text);
   Value make_list(Span span, std::vector<Value> items);
+  Value make_dictionary(Span span, Variables entries);
+  /// Returns the depth of a list or dictionary around things of such a depth. Throws if it is too
+  /// much.
+  int depth_around(Span span, int inside) const;
   /// Throws unless a string or list of such a size is allowed.
   void check_string_size(Span span, std::size_t bytes);
   void check_list_size(Span span, std::size_t items);
@@ -78,6 +90,26 @@ class Context {
   double length(Span span, double value, Unit unit_of_value);
   /// Says whether a length was asked for, which the unit has then decided.
   bool has_lengths() const { return has_lengths_; }
+
+  /// A Truncation is a division of Integers that left a rest.
+  struct Truncation {
+    Span sign;
+    std::int64_t dividend = 0;
+    std::int64_t divisor = 0;
+  };
+  /// Notes that the value of the expression at `value` comes of such a division.
+  void note_truncation(Span value, const Truncation& division);
+  /// Returns that division, or null.
+  const Truncation* truncation_of(Span value) const;
+  /// Notes whether a variable is set to what comes of such a division.
+  void note_variable(Symbol name, Span value);
+  /// Notes that a variable is read, if it was set so.
+  void note_reading(Symbol name, Span span, const Value& value);
+  /// Forgets what was noted of an expression that is evaluated again.
+  void forget_truncation(Span value);
+  bool has_truncations() const { return has_truncations_; }
+  /// Warns if an Integer at `value` that is used as a Float comes of such a division.
+  void used_as_float(Span value);
 
   void print(Span span, const std::string& line);
 
@@ -123,6 +155,26 @@ class Context {
   std::size_t printed_bytes_ = 0;
   bool has_lengths_ = false;
   std::vector<Activity> activities_;
+  std::unordered_map<std::uint64_t, Truncation> truncations_;  ///< by where their values are
+  std::unordered_map<Symbol, Truncation> truncated_variables_;
+  std::set<std::uint64_t> reported_divisions_;
+  bool has_truncations_ = false;  ///< or had
+};
+
+/// A ListMaker makes a list item by item, and pays for its memory as it grows.
+class ListMaker {
+ public:
+  ListMaker(Context& context, Span span) : context_(context), span_(span) {}
+
+  void add(Value item);
+  Value finish();
+
+ private:
+  Context& context_;
+  Span span_;
+  std::vector<Value> items_;
+  int depth_inside_ = 0;
+  Charge charge_;
 };
 
 }  // namespace crt::lang

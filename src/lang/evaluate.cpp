@@ -33,6 +33,8 @@ Value Interpreter::evaluate_node(const Length& length, const Expression& express
   const Value* value = scope_->find(name.symbol);
   if (!value) unknown_name(name.symbol, expression.span);
   if (std::holds_alternative<Unknown>(*value)) throw Abandoned{};
+  if (context_.has_truncations()) [[unlikely]]
+    context_.note_reading(name.symbol, expression.span, *value);
   return *value;
 }
 
@@ -108,10 +110,7 @@ Value Interpreter::evaluate_node(const Length& length, const Expression& express
   context_.check_list_size(expression.span, list.items.size());
   std::vector<Value> items;
   items.reserve(list.items.size());
-  for (const Expression* item : list.items) {
-    items.push_back(evaluate(*item));
-    if (std::holds_alternative<Nothing>(items.back())) fail(item->span, "this call has no value");
-  }
+  for (const Expression* item : list.items) items.push_back(evaluate_value(*item));
   return context_.make_list(expression.span, std::move(items));
 }
 
@@ -125,13 +124,22 @@ Value Interpreter::evaluate_node(const Length& length, const Expression& express
   return unary(unary_node.op, expression.span, evaluate(*unary_node.operand));
 }
 
-[[gnu::noinline]] Value Interpreter::evaluate_node(const Chain& chain, const Expression&) {
-  Value result = evaluate(*chain.first);
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Chain& chain,
+                                                   const Expression& expression) {
+  if (context_.has_truncations()) [[unlikely]]
+    context_.forget_truncation(expression.span);
+  Value left = evaluate(*chain.first);
+  Span left_span = chain.first->span;
   for (const ChainLink& link : chain.links) {
     const Value right = evaluate(*link.operand);
-    result = binary(context_, link.op, link.op_span, result, right);
+    if (link.op == BinaryOperator::divide || context_.has_truncations()) [[unlikely]] {
+      left = watched_division(expression, link, left_span, left, right);
+      left_span = expression.span;
+    } else {
+      left = binary(context_, link.op, link.op_span, left, right);
+    }
   }
-  return result;
+  return left;
 }
 
 [[gnu::noinline]] Value Interpreter::evaluate_node(const Logical& logical, const Expression&) {
@@ -184,13 +192,23 @@ Value Interpreter::evaluate_node(const Length& length, const Expression& express
 [[gnu::noinline]] Value Interpreter::evaluate_node(const Assignment& assignment,
                                                    const Expression&) {
   const Symbol name = assignment.name.symbol;
-  if (overridden_.contains(name) && &scope_->target_of(name) == globals_.get())
-    return *globals_->find(name);
+  if (is_overridden(name)) return *globals_->find(name);
   if (std::optional<Value> list = append_to_variable(assignment)) return std::move(*list);
-  Value value = evaluate(*assignment.value);
-  if (std::holds_alternative<Nothing>(value))
-    fail(assignment.value->span, "this call has no value");
+  Value value = evaluate_value(*assignment.value);
+  context_.note_variable(name, assignment.value->span);
   scope_->target_of(name).set(name, value);
+  return value;
+}
+
+/// Says whether an assignment here would change a variable that was set from outside.
+bool Interpreter::is_overridden(Symbol name) const {
+  return overridden_.contains(name) && &scope_->target_of(name) == globals_.get();
+}
+
+/// Evaluates what must have a value.
+Value Interpreter::evaluate_value(const Expression& expression) {
+  Value value = evaluate(expression);
+  if (std::holds_alternative<Nothing>(value)) fail(expression.span, "this call has no value");
   return value;
 }
 

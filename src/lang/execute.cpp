@@ -28,8 +28,23 @@ bool is_decrement(std::string_view behind) {
 
 void Interpreter::run(const Script& script, bool is_import) {
   has_begun_ = true;
+  scripts_.push_back(&script);
   const Temporarily imports(is_import_, is_import);
   for (const Statement& statement : script.statements.statements) attempt(statement);
+}
+
+Value Interpreter::run_apart(const Script& script, Span span) {
+  auto scope = std::make_shared<Scope>(Scope::Kind::border, universe_);
+  const Temporarily inside(scope_, scope);
+  const Temporarily level(top_level_, top_levels_++);
+  run(script, true);
+  Variables entries;
+  for (const auto& [name, value] : scope->variables()) entries.set(name, value);
+  return context_.make_dictionary(span, std::move(entries));
+}
+
+void Interpreter::set_variable(Symbol name, const Value& value) {
+  scope_->target_of(name).set(name, value);
 }
 
 /// Runs a statement whose failure leaves the next ones worth running, so that a run reports several
@@ -60,7 +75,7 @@ void Interpreter::mark_unknown(const Statement& statement) {
 void Interpreter::execute(const Block& block) {
   for (const Statement& statement : block.statements) {
     execute(statement);
-    if (result_.is_returning) return;
+    if (result_.leaving != Leaving::nothing) return;
   }
 }
 
@@ -90,6 +105,37 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
        assigns ? "; to compare, write '=='" : "");
 }
 
+/// Says, behind a round of a loop, whether it was the last one.
+bool Interpreter::leaves_loop() {
+  if (result_.leaving == Leaving::nothing) return false;
+  const bool ends_round = result_.leaving == Leaving::round;
+  if (result_.leaving != Leaving::macro) result_.leaving = Leaving::nothing;
+  return !ends_round;
+}
+
+/// Binds a name to a value, or several names to its items.
+void Interpreter::bind_names(Scope& scope, const std::vector<NamePlace>& names, const Value& value,
+                             Span span) {
+  if (names.size() == 1) return scope.set(names[0].symbol, value);
+  const List* list = std::get_if<List>(&value);
+  const auto* vector = std::get_if<Vec3>(&value);
+  constexpr std::size_t axes = 3;
+  if (!list && !vector)
+    fail(span, "{} names take the items of a List or a Vec3, not {}", names.size(), value);
+  const std::size_t size = list ? (*list)->items.size() : axes;
+  if (size != names.size())
+    fail(span, "{} names take as many items, not those of a {} of {}", names.size(),
+         list ? "List" : "Vec3", size);
+  for (std::size_t i = 0; i < size; ++i)
+    scope.set(names[i].symbol, list ? (*list)->items[i] : Value((*vector)[static_cast<int>(i)]));
+}
+
+[[gnu::noinline]] void Interpreter::execute_node(const Jump& jump) {
+  if (scope_->find(std::get<Name>(jump.name->node).symbol))
+    return emit(evaluate(*jump.name), jump.keyword);
+  result_.leaving = jump.is_break ? Leaving::loop : Leaving::round;
+}
+
 [[gnu::noinline]] void Interpreter::execute_node(const While& loop) {
   const Context::Running running(context_,
                                  {.name = "while", .span = loop.keyword, .is_loop = true});
@@ -98,7 +144,7 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
     context_.count_round();
     scope = fresh_scope(std::move(scope));
     execute_in(loop.body, scope);
-    if (result_.is_returning) return;
+    if (leaves_loop()) return;
   }
 }
 
@@ -112,9 +158,9 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
     context_.step(loop.keyword);
     context_.count_round();
     scope = fresh_scope(std::move(scope));
-    scope->set(loop.variable.symbol, item);
+    bind_names(*scope, loop.variables, item, loop.list->span);
     execute_in(loop.body, scope);
-    if (result_.is_returning) return;
+    if (leaves_loop()) return;
   }
 }
 
@@ -141,7 +187,7 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
     if (std::holds_alternative<Nothing>(value)) fail(result.value->span, "this call has no value");
     result_.value = std::move(value);
   }
-  result_.is_returning = true;
+  result_.leaving = Leaving::macro;
 }
 
 [[gnu::noinline]] void Interpreter::execute_node(const SettingsBlock& settings) {
@@ -168,7 +214,9 @@ void Interpreter::execute_node(const Import& import) {
     return execute_top_level_call(expression, *call);
   }
   const Value value = evaluate(expression);
-  if (!std::holds_alternative<Assignment>(expression.node)) emit(value, expression.span);
+  const bool assigns = std::holds_alternative<Assignment>(expression.node) ||
+                       std::holds_alternative<Destructuring>(expression.node);
+  if (!assigns) emit(value, expression.span);
 }
 
 /// What a macro emits when it is called as a statement goes where the caller's own entities go.
@@ -176,7 +224,8 @@ void Interpreter::execute_node(const Import& import) {
   context_.step(expression.span);
   const Value callee = evaluate(*call.callee);
   if (const auto* macro = std::get_if<Macro>(&callee)) {
-    const Value value = call_macro(expression, call, **macro);
+    const CallSite site{callee_name(call), expression.span};
+    const Value value = call_macro(site, **macro, bind_arguments(site, call, **macro));
     const bool may_be_emitted =
         std::holds_alternative<Entity>(value) || std::holds_alternative<List>(value);
     if (may_be_emitted) emit(value, expression.span);
@@ -212,14 +261,12 @@ void Interpreter::execute_node(const Import& import) {
 
 /// Says how to call a macro of which only the name stands there.
 std::string Interpreter::how_to_call(const MacroValue& macro, Span span) const {
-  const Source& source = context_.sources.source_of(span);
-  const std::string_view text =
-      std::string_view(source.text).substr(span.begin - source.base, span.end - span.begin);
+  const std::string_view text = context_.sources.text(span);
   const bool is_name =
       std::all_of(text.begin(), text.end(), [](char c) { return is_word_byte(c); });
   const std::string_view name = is_name ? text : "m";
   return text::format("; {} is a macro: call it with {}{}", is_name ? name : "this", name,
-                      parameter_list(context_.symbols, macro));
+                      parameter_list(context_, macro));
 }
 
 /// Says where a value that is not used belongs, or what was meant.

@@ -12,6 +12,9 @@
 
 namespace crt::lang {
 
+/// Is thrown by an expression that uses a variable whose setting failed. That was already reported.
+struct Abandoned {};
+
 /// A value stands in a message as its type: "an Integer".
 template <class Argument>
 decltype(auto) as_shown(const Argument& argument) {

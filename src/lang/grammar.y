@@ -50,6 +50,9 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %token <std::int64_t> INTEGER "a whole number"
 %token <Number> FLOAT "a number"
 %token <std::string> STRING "a string"
+/* A string with values in it has these pieces around them. */
+%token <std::string> STRING_START "a string up to a value" STRING_MIDDLE "a string between values"
+%token <std::string> STRING_END "the end of a string"
 %token <Symbol> IDENTIFIER "a name"
 %token <Symbol> OBJECT_NAME "an object's name"
 
@@ -57,7 +60,7 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %token SCALE "scale" TRANSLATE "translate" ROTATE "rotate"
 /* These are tokens of their own in few places, and names in all others. */
 %token MATERIAL "material" ID "id" MATRIX "matrix" SHADOW "shadow" VISIBLE "visible"
-%token ELIF "elif" RETURN "return"
+%token ELIF "elif" RETURN "return" AS "as"
 %token TRUE "true" FALSE "false" WHILE "while" IF "if" ELSE "else" FOR "for" IN "in" IMPORT "import"
 
 %token LEFT_BRACE "{" RIGHT_BRACE "}" RIGHT_PARENTHESIS ")" RIGHT_BRACKET "]"
@@ -68,11 +71,13 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %token MODIFIER_START "< before a modifier"
 /* This is a '{' between a name and an attribute. */
 %token DERIVING_BRACE "{ behind a name"
+/* This is a '{' where a value is to be. */
+%token DICTIONARY_BRACE "{ of a dictionary"
 
 %token PLUS "+" MINUS "-" STAR "*" SLASH "/" PERCENT "%" CARET "^" NOT "!"
 %token LESS "<" GREATER ">" LESS_EQUAL "<=" GREATER_EQUAL ">=" EQUAL "==" NOT_EQUAL "!="
 %token POWER "**" ADD_ASSIGN "+=" SUBTRACT_ASSIGN "-=" MULTIPLY_ASSIGN "*=" DIVIDE_ASSIGN "/="
-%token AND "&&" OR "||" QUESTION "?" COLON ":" ASSIGN "=" COMMA "," ARROW "->"
+%token AND "&&" OR "||" QUESTION "?" COLON ":" ASSIGN "=" COMMA "," ARROW "->" DOT "."
 
 /* There is no sign that ends a statement, so an expression is as long as it can be. Before a token
    that could either continue it or begin the next one, continuing has the higher precedence. */
@@ -90,11 +95,17 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %nterm <If> if_branches
 %nterm <Expression*> expression conditional logical comparison arithmetic unary postfix
 %nterm <Expression*> condition
-%nterm <std::vector<const Expression*>> expressions expressions_or_none items
+%nterm <std::vector<const Expression*>> expressions items interpolation
+%nterm <Call> arguments arguments_or_none
+%nterm <std::vector<Clause>> clauses
+%nterm <Clause> clause for_clause
+%nterm <Expression*> bound
 %nterm <std::vector<AttributeSyntax>> attributes
-%nterm <AttributeSyntax> attribute
-%nterm <std::vector<NamePlace>> parameters parameters_or_none
-%nterm <NamePlace> parameter
+%nterm <AttributeSyntax> attribute entry
+%nterm <std::vector<AttributeSyntax>> entries entries_or_none
+%nterm <Parameters> parameters parameters_or_none
+%nterm <AttributeSyntax> parameter
+%nterm <std::vector<NamePlace>> names
 %nterm <std::vector<Modifier>> modifiers
 %nterm <Modifier> modifier
 %nterm <BinaryOperator> comparison_operator assignment_operator
@@ -142,7 +153,10 @@ settings: "Settings" "{" nest attributes "}" { $$ = tree.statement(@$, SettingsB
 
 scene: "Scene" block                         { $$ = tree.statement(@$, SceneBlock{@1, $2}); }
 
-import: "import" STRING                      { $$ = tree.statement(@$, Import{@2, $2}); }
+import:
+    "import" STRING                          { $$ = tree.statement(@$, Import{@2, $2}); }
+  | "import" STRING "as" IDENTIFIER
+                                   { $$ = tree.statement(@$, Import{@2, $2, NamePlace{$4, @4}}); }
 
 open: "(" | "( first on its line"
 
@@ -150,8 +164,12 @@ condition: open nest expression ")"          { $$ = $3; }
 
 while: "while" condition block               { $$ = tree.statement(@$, While{@1, $2, $3}); }
 
-for: "for" open IDENTIFIER "in" expression ")" block
-                                             { $$ = tree.statement(@$, For{@1, {$3, @3}, $5, $7}); }
+for: "for" open names "in" expression ")" block
+                                             { $$ = tree.statement(@$, For{@1, $3, $5, $7}); }
+
+names:
+    IDENTIFIER                               { $$.push_back({$1, @1}); }
+  | names "," IDENTIFIER                     { $$ = $1; $$.push_back({$3, @3}); }
 
 if:
     if_branches                              { $$ = tree.statement(@$, $1); }
@@ -221,6 +239,9 @@ postfix:
     INTEGER                                  { $$ = tree.literal(@$, $1); }
   | FLOAT                                    { $$ = tree.number(@$, $1); }
   | STRING                                   { $$ = tree.literal(@$, tree.string($1)); }
+  | STRING_START nest interpolation STRING_END
+                                   { $$ = tree.interpolation(@$, tree.text(@1, $1), $3,
+                                                             tree.text(@4, $4)); }
   | "true"                                   { $$ = tree.literal(@$, true); }
   | "false"                                  { $$ = tree.literal(@$, false); }
   | IDENTIFIER                               { $$ = tree.expression(@$, Name{$1});
@@ -228,17 +249,24 @@ postfix:
                                                   an error, but errors on the next line count. */
                                                if (tree.is_past_error(@1)) yyerrok; }
   | open nest expression ")"                 { $$ = $3; }
-  | "[" nest items "]"                       { $$ = tree.expression(@$, ListLiteral{$3}); }
-  | "[ first on its line" nest items "]"     { $$ = tree.expression(@$, ListLiteral{$3}); }
+  | open_list nest items "]"                 { $$ = tree.expression(@$, ListLiteral{$3}); }
+  | open_list nest expression clauses "]"    { $$ = tree.comprehension(@$, $3, $4); }
+  | "{ of a dictionary" nest entries_or_none "}"
+                                             { $$ = tree.dictionary(@$, $3); }
   | OBJECT_NAME "{" nest attributes "}"
                                    { $$ = tree.expression(@$, ObjectLiteral{{$1, @1}, $4}); }
   | IDENTIFIER "{ behind a name" nest attributes "}"
                                    { $$ = tree.expression(@$,
                                        DerivedMaterial{tree.expression(@1, Name{$1}), $4}); }
+  | postfix "." IDENTIFIER "{ behind a name" nest attributes "}"
+                                   { $$ = tree.expression(@$, DerivedMaterial{
+                                       tree.member({@1.begin, @3.end}, $1, {$3, @3}), $6}); }
   | "Macro" open parameters_or_none ")" block
                                              { $$ = tree.macro(@$, $3, $5); }
   | postfix "[" nest expression "]"          { $$ = tree.expression(@$, Index{$1, $4}); }
-  | postfix "(" nest expressions_or_none ")" { $$ = tree.expression(@$, Call{$1, $4}); }
+  | postfix "[" nest bound ":" bound "]"     { $$ = tree.expression(@$, Slice{$1, $4, $6, @5}); }
+  | postfix "." IDENTIFIER                   { $$ = tree.member(@$, $1, {$3, @3}); }
+  | postfix "(" nest arguments_or_none ")"   { $$ = tree.call(@$, $1, $4); }
   | postfix "< before a modifier" nest modifiers ">"
                                              { $$ = tree.expression(@$, Modified{$1, $4}); }
 
@@ -259,9 +287,29 @@ modifier:
   | IDENTIFIER arithmetic                    { tree.unknown_modifier(@1);
                                                $$ = {ModifierKind::scale, $2}; }
 
-expressions_or_none:
+open_list: "[" | "[ first on its line"
+
+/* A bound of a slice may be left out. */
+bound:
+    %empty                                   { $$ = nullptr; }
+  | expression                               { $$ = $1; }
+
+/* Values and pieces of the string between them take turns. */
+interpolation:
+    expression                               { $$.push_back($1); }
+  | interpolation STRING_MIDDLE expression   { $$ = $1;
+                                               $$.push_back(tree.text(@2, $2));
+                                               $$.push_back($3); }
+
+arguments_or_none:
     %empty                                   { }
-  | expressions                              { $$ = $1; }
+  | arguments                                { $$ = $1; }
+
+arguments:
+    expression                               { $$ = tree.argument(Call(), $1); }
+  | IDENTIFIER "->" expression               { $$ = tree.argument(Call(), {$1, @1}, $3); }
+  | arguments "," expression                 { $$ = tree.argument($1, $3); }
+  | arguments "," IDENTIFIER "->" expression { $$ = tree.argument($1, {$3, @3}, $5); }
 
 expressions:
     expression                               { $$.push_back($1); }
@@ -269,8 +317,35 @@ expressions:
 
 /* A comma may stand after the last item, so that lists with a line for each item look regular. */
 items:
-    expressions_or_none                      { $$ = $1; }
+    %empty                                   { }
+  | expressions                              { $$ = $1; }
   | expressions ","                          { $$ = $1; }
+
+/* Later clauses run within the ones before. */
+clauses:
+    for_clause                               { $$.push_back($1); }
+  | clauses clause                           { $$ = $1; $$.push_back($2); }
+
+clause:
+    for_clause                               { $$ = $1; }
+  | "if" expression                          { $$ = {@1, {}, $2}; }
+
+for_clause: "for" names "in" expression      { $$ = {@1, $2, $4}; }
+
+/* The comma between two entries may be left out, as between the attributes of an object. */
+entries_or_none:
+    %empty                                   { }
+  | entries                                  { $$ = $1; }
+  | entries ","                              { $$ = $1; }
+
+entries:
+    entry                                    { $$.push_back($1); }
+  | entries entry                            { $$ = $1; $$.push_back($2); }
+  | entries "," entry                        { $$ = $1; $$.push_back($3); }
+
+entry:
+    attribute                                { $$ = $1; }
+  | STRING "->" expression                   { $$ = {tree.key(@1, $1), $3}; }
 
 attributes:
     %empty                                   { }
@@ -284,13 +359,14 @@ parameters_or_none:
   | parameters                               { $$ = $1; }
 
 parameters:
-    parameter                                { $$.push_back($1); }
-  | parameters "," parameter                 { $$ = $1; $$.push_back($3); }
+    parameter                                { $$ = tree.parameter(Parameters(), $1); }
+  | parameters "," parameter                 { $$ = tree.parameter($1, $3); }
 
 parameter:
-    IDENTIFIER                               { $$ = {$1, @1}; }
+    IDENTIFIER                               { $$ = {{$1, @1}, nullptr}; }
+  | attribute                                { $$ = $1; }
   | IDENTIFIER "=" expression                { tree.refuse_default(@2);
-                                               $$ = {$1, @1}; }
+                                               $$ = {{$1, @1}, $3}; }
 
 %%
 

@@ -49,6 +49,12 @@ Interpreter::Interpreter(Context& context)
       universe_(std::make_shared<Scope>(Scope::Kind::border, nullptr)),
       globals_(std::make_shared<Scope>(Scope::Kind::border, universe_)),
       scope_(globals_) {
+  context.call = [this](std::string_view name, Span call, const Value& callee,
+                        std::span<const Value> arguments) {
+    Value value = call_value({.name = name, .span = call}, callee, arguments);
+    if (std::holds_alternative<Nothing>(value)) fail(call, "this call has no value");
+    return value;
+  };
   for (const Builtin& builtin : builtins())
     universe_->set(context.symbols.intern(builtin.name), &builtin);
   universe_->set(context.symbols.intern("pi"), std::numbers::pi);

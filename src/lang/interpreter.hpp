@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -37,6 +38,15 @@ class Interpreter {
   /// Runs a script's statements. Errors go to the reporter. Throws GiveUp when it makes no sense to
   /// continue. `script` must outlive the interpreter.
   void run(const Script& script, bool is_import);
+
+  /// Runs an imported script in a top level of its own, and returns its variables as a dictionary.
+  Value run_apart(const Script& script, Span span);
+
+  /// Tells top levels apart: that of the main script, and those of imports with a name.
+  int top_level() const { return top_level_; }
+
+  /// Sets a variable of the script that runs now.
+  void set_variable(Symbol name, const Value& value);
 
   /// Returns the value of an expression in the top-level scope. Throws a Failure.
   Value evaluate(const Expression& expression);
@@ -69,9 +79,12 @@ class Interpreter {
     bool into_scene = false;
   };
 
+  /// Says up to where the statements are being left.
+  enum class Leaving { nothing, round, loop, macro };
+
   /// A Result is what the macro that runs now returns.
   struct Result {
-    bool is_returning = false;  ///< the statements up to the macro's call are being left
+    Leaving leaving = Leaving::nothing;
     Value value = Nothing{};
     std::size_t entities_before = 0;  ///< those that were emitted before the call
   };
@@ -99,6 +112,7 @@ class Interpreter {
   void execute_node(const While& loop);
   void execute_node(const If& choice);
   void execute_node(const For& loop);
+  void execute_node(const Jump& jump);
   void execute_node(const Return& result);
   void execute_node(const SettingsBlock& settings);
   void execute_node(const SceneBlock& scene);
@@ -114,16 +128,23 @@ class Interpreter {
   void emit_entity(const Entity& entity, Span span);
   bool emit_items(const ListValue& list, Span span);
   bool condition(const Expression& expression, const char* what);
+  bool leaves_loop();
+  void bind_names(Scope& scope, const std::vector<NamePlace>& names, const Value& value, Span span);
 
   // Expressions: evaluate.cpp.
   Value evaluate_node(const Literal& literal, const Expression& expression);
   Value evaluate_node(const Length& length, const Expression& expression);
+  Value evaluate_node(const Interpolation& text, const Expression& expression);
   Value evaluate_node(const Name& name, const Expression& expression);
   Value evaluate_node(const ObjectLiteral& object, const Expression& expression);
   Value evaluate_node(const DerivedMaterial& derived, const Expression& expression);
   Value evaluate_node(const MacroLiteral& macro, const Expression& expression);
   Value evaluate_node(const ListLiteral& list, const Expression& expression);
+  Value evaluate_node(const Comprehension& list, const Expression& expression);
+  Value evaluate_node(const DictionaryLiteral& dictionary, const Expression& expression);
   Value evaluate_node(const Index& index, const Expression& expression);
+  Value evaluate_node(const Slice& slice, const Expression& expression);
+  Value evaluate_node(const Member& member, const Expression& expression);
   Value evaluate_node(const Call& call, const Expression& expression);
   Value evaluate_node(const Modified& modified, const Expression& expression);
   Value evaluate_node(const Unary& unary, const Expression& expression);
@@ -131,6 +152,13 @@ class Interpreter {
   Value evaluate_node(const Logical& logical, const Expression& expression);
   Value evaluate_node(const Conditional& conditional, const Expression& expression);
   Value evaluate_node(const Assignment& assignment, const Expression& expression);
+  Value evaluate_node(const Destructuring& assignment, const Expression& expression);
+  Value evaluate_value(const Expression& expression);
+  void run_clauses(const Comprehension& list, std::size_t next, ListMaker& items);
+  Value watched_division(const Expression& chain, const ChainLink& link, Span left_span,
+                         const Value& left, const Value& right);
+  bool has_remainder_by(Span divisor);
+  bool is_overridden(Symbol name) const;
   std::optional<Value> append_to_variable(const Assignment& assignment);
   std::vector<Given> evaluate_attributes(const ObjectType& type,
                                          const std::vector<AttributeSyntax>& attributes);
@@ -141,14 +169,26 @@ class Interpreter {
   std::string hint_of_order(Symbol name, Span span) const;
   void check_stack(Span span) const;
 
+  /// A CallSite is what messages say of a call.
+  struct CallSite {
+    std::string_view name;
+    Span span;
+  };
+
   // Calls: call.cpp.
   Value call_builtin(const Expression& expression, const Call& call, const Builtin& builtin);
-  Value call_macro(const Expression& expression, const Call& call, const MacroValue& macro);
-  std::shared_ptr<Scope> bind_arguments(const Expression& expression, const Call& call,
+  Value call_value(const CallSite& site, const Value& callee, std::span<const Value> arguments);
+  std::shared_ptr<Scope> bind_arguments(const CallSite& site, const Call& call,
                                         const MacroValue& macro);
+  void bind_defaults(const MacroValue& macro, Scope& scope);
+  void check_given(const CallSite& site, const MacroValue& macro, const Scope& scope) const;
+  std::size_t parameter_of(const CallSite& site, const NamePlace& argument,
+                           const MacroValue& macro) const;
+  void check_number(const CallSite& site, std::size_t arguments, const MacroValue& macro) const;
   void complain_of_name(const Assignment& assignment, const MacroValue& macro) const;
   [[noreturn]] void pass_call_depth(Span span) const;
-  Value value_of_call(const Expression& expression, const Call& call, const MacroValue& macro);
+  Value call_macro(const CallSite& site, const MacroValue& macro, std::shared_ptr<Scope> scope);
+  Value value_of_call(const CallSite& site, const MacroValue& macro, std::shared_ptr<Scope> scope);
   [[noreturn]] void not_callable(const Call& call, const Value& callee) const;
   std::string_view callee_name(const Call& call) const;
   void capture_scopes(Span span);
@@ -168,10 +208,17 @@ class Interpreter {
   std::size_t call_depth_ = 0;
   std::set<Symbol> overridden_;
 
+  /// These are the scripts that have run, and the divisors of their remainders once they are asked.
+  std::vector<const Script*> scripts_;
+  std::size_t scripts_searched_ = 0;
+  std::set<std::string_view> remainders_;
+
   const NameUses* name_uses_ = nullptr;
   /// Says of each modifier that gave a material whether some part took it.
   std::map<std::uint32_t, std::pair<Span, bool>> materials_given_;
 
+  int top_level_ = 0;       ///< the one that runs now
+  int top_levels_ = 1;      ///< so many have run
   bool has_begun_ = false;  ///< with a script, and not only with values from outside
   bool is_import_ = false;
   bool has_scene_ = false;
@@ -183,10 +230,7 @@ class Interpreter {
   std::function<void(const Import&)> importer_;
 };
 
-/// Returns the parameters of a macro as they are written: "(r, h)".
-std::string parameter_list(const SymbolTable& symbols, const MacroValue& macro);
-
-/// Is thrown by an expression that uses a variable whose setting failed. That was already reported.
-struct Abandoned {};
+/// Returns the parameters of a macro as they are written: "(r, h -> 1)".
+std::string parameter_list(const Context& context, const MacroValue& macro);
 
 }  // namespace crt::lang

@@ -33,6 +33,10 @@ class Lexer {
   /// Returns the text of a piece of this source.
   std::string_view text(Span span) const;
 
+  int compat() const { return compat_; }
+
+  Symbol intern(std::string_view name) const { return symbols_.intern(name); }
+
   /// Returns the place before everything.
   Span start() const { return {source_.base, source_.base}; }
 
@@ -83,14 +87,18 @@ class Lexer {
   Grammar::symbol_type single_quoted();
   Grammar::symbol_type whole_number();
   Grammar::symbol_type decimal_number();
-  Grammar::symbol_type string();
+  Grammar::symbol_type string(Grammar::token::token_kind_type whole,
+                              Grammar::token::token_kind_type up_to_value);
+  Grammar::symbol_type string_token(Grammar::token::token_kind_type kind, std::string value);
+  bool value_is_open();
+  Grammar::symbol_type unclosed_value();
+  bool closes_value();
   void escape(std::string& value);
   std::optional<std::uint32_t> hexadecimal_unit();
   void unicode_escape(std::string& value, const Byte* start);
-  std::optional<Unit> unit_after_number();
+  std::optional<Number> unit_after_number(double value);
 
   void unexpected_character();
-  bool refuse_component();
   void not_utf8();
 
   // What other languages write: lexer_foreign.cpp.
@@ -114,6 +122,8 @@ class Lexer {
   bool may_begin_statement() const;
   bool arrow_follows() const;
   bool derivation_follows() const;
+  bool member_follows() const;
+  Grammar::token::token_kind_type kind_of_brace() const;
   std::string_view next_word() const;
   std::optional<Grammar::token::token_kind_type> keyword_by_place(std::string_view name) const;
   bool is_keyword_of_2015(Grammar::token::token_kind_type kind) const;
@@ -134,7 +144,9 @@ class Lexer {
   bool started_ = false;
   bool first_on_line_ = true;
   std::vector<Span> open_brackets_;
-  std::vector<Span> passed_over_;        ///< braces that begin nothing
+  std::vector<Span> passed_over_;  ///< braces that begin nothing
+  /// Where the brackets begin that are open around values in strings. They are open brackets, too.
+  std::vector<std::uint32_t> open_values_;
   std::optional<Span> shallower_close_;  ///< see brace_to_blame()
   Tolerance tolerance_;
   std::vector<std::size_t> open_modifiers_;  ///< counts the brackets around each open list

@@ -117,7 +117,9 @@ Grammar::symbol_type Lexer::scan() {
                  foreign_comment();
                  continue; }
       [ \t\v\f]+               { continue; }
-      "\r\n" | "\n" | "\r"     { first_on_line_ = true; continue; }
+      "\r\n" | "\n" | "\r"     { if (value_is_open()) return unclosed_value();
+                                 first_on_line_ = true;
+                                 continue; }
 
       [a-zA-Z_] [A-Za-z0-9_]*  { return word(); }
       // This is meant as a name, but has letters that names do not have.
@@ -126,15 +128,15 @@ Grammar::symbol_type Lexer::scan() {
       digits                   { return whole_number(); }
       digits "." digits? exponent? | "." digits exponent? | digits exponent
                                { return decimal_number(); }
-      "\""                     { return string(); }
+      "\""                     { return string(Token::STRING, Token::STRING_START); }
       "'" [^'"\r\n]* "'"        { return single_quoted(); }
 
-      "{"      { return opening(derivation_follows() ? Token::DERIVING_BRACE
-                                                  : Token::LEFT_BRACE); }
+      "{"      { return opening(kind_of_brace()); }
       "("      { return opening(first_on_line_ ? Token::FIRST_PARENTHESIS
                                                : Token::LEFT_PARENTHESIS); }
       "["      { return opening(first_on_line_ ? Token::FIRST_BRACKET : Token::LEFT_BRACKET); }
-      "}"      { if (closes_passed_over()) continue;
+      "}"      { if (closes_value()) return string(Token::STRING_END, Token::STRING_MIDDLE);
+                 if (closes_passed_over()) continue;
                  return closing(Token::RIGHT_BRACE, '{'); }
       ")"      { return closing(Token::RIGHT_PARENTHESIS, '('); }
       "]"      { return closing(Token::RIGHT_BRACKET, '['); }
@@ -166,6 +168,9 @@ Grammar::symbol_type Lexer::scan() {
       ":"      { return sign(Token::COLON); }
       "="      { return sign(Token::ASSIGN); }
       ","      { return sign(Token::COMMA); }
+      "."      { if (member_follows()) return sign(Token::DOT);
+                 unexpected_character();
+                 continue; }
 
       // This is last, as the first of several patterns that match the same text wins.
       [^]      { unexpected_character(); continue; }
@@ -176,6 +181,7 @@ Grammar::symbol_type Lexer::scan() {
 /// Gives out what the tolerance adds behind the text, then the end.
 Grammar::symbol_type Lexer::ending() {
   if (std::exchange(tolerance_.ends_at_cursor, false)) return sign(Token::CURSOR);
+  if (value_is_open()) return unclosed_value();
   if (!tolerance_.closes_brackets) return sign(Token::END);
   while (closes_passed_over()) continue;
   if (open_brackets_.empty()) return sign(Token::END);
@@ -233,6 +239,7 @@ Grammar::symbol_type Lexer::closing(Token::token_kind_type kind, char opening_br
   // most a few, as the closing bracket may have no partner.
   const std::size_t size = open_brackets_.size();
   for (std::size_t i = size; i > size - std::min(size, max_forgotten_brackets); --i) {
+    if (!open_values_.empty() && open_brackets_[i - 1].begin == open_values_.back()) break;
     if (text(open_brackets_[i - 1])[0] != opening_bracket) continue;
     const Span partner = open_brackets_[i - 1];
     if (opening_bracket == '{' && i > 1 && !shallower_close_ && first_on_line_) {
@@ -252,6 +259,10 @@ Grammar::symbol_type Lexer::word() {
   const std::string_view name = token_text().substr(0, longest_name);
   if (name.size() < token_text().size())
     reporter_.error(token_span(), "names have at most 255 letters, digits and '_'");
+  if (last_.kind == Grammar::symbol_kind::S_DOT) {
+    first_on_line_ = false;
+    return Grammar::make_IDENTIFIER(symbols_.intern(name), token_span());
+  }
   const auto* keyword =
       std::find_if(keywords.begin(), keywords.end(),
                    [name](const Keyword& k) { return k.text == name; });
@@ -299,28 +310,7 @@ void Lexer::not_utf8() {
   reporter_.error(token_span(), "this byte is not UTF-8, the encoding of scripts");
 }
 
-/// Reports `v.x`, and says whether it was that.
-bool Lexer::refuse_component() {
-  using Kind = Grammar::symbol_kind;
-  const bool is_behind_value = last_.span.end == offset(token_) &&
-                               (last_.kind == Kind::S_IDENTIFIER ||
-                                last_.kind == Kind::S_RIGHT_PARENTHESIS ||
-                                last_.kind == Kind::S_RIGHT_BRACKET);
-  const std::string_view name = is_behind_value ? next_word() : std::string_view();
-  constexpr std::string_view components = "xyzrgba";
-  const std::size_t component = name.size() == 1 ? components.find(name) : std::string_view::npos;
-  if (component == std::string_view::npos || next_token_start() != cursor_) return false;
-  cursor_ += name.size();
-  constexpr std::size_t colors_from = 3;
-  const std::size_t index = component < colors_from ? component : component - colors_from;
-  const bool is_name = last_.kind == Kind::S_IDENTIFIER;
-  reporter_.error(token_span(), text::format("values have no parts with names; write {}[{}]",
-                                            is_name ? text(last_.span) : "v", index));
-  return true;
-}
-
 void Lexer::unexpected_character() {
-  if (token_text() == "." && refuse_component()) return;
   std::size_t position = 0;
   const std::optional<char32_t> character = decode_utf8(token_text(), position);
   std::string message = "unexpected character " + describe_code_point(character.value_or(0));

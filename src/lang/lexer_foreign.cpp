@@ -130,7 +130,8 @@ bool Lexer::color_follows() const {
 
 Grammar::symbol_type Lexer::foreign_color() {
   cursor_ += next_word().size();
-  reporter_.error(token_span(), "a colour is written rgb(1, 0.5, 0), in linear light from 0 to 1");
+  reporter_.error(token_span(),
+                  text::format("a colour of digits stands in quotes: \"{}\"", token_text()));
   first_on_line_ = false;
   return Grammar::make_INTEGER(0, token_span());
 }

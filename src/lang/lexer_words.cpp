@@ -41,8 +41,12 @@ std::optional<Terminal::token_kind_type> Lexer::keyword_by_place(std::string_vie
   if (name == "elif" && last_.kind == Grammar::symbol_kind::S_RIGHT_BRACE &&
       *next_on_line(cursor_) == '(')
     return Terminal::ELIF;
-  if (name == "return" && may_begin_statement() && value_follows(cursor_, true))
+  if (name == "return" && may_begin_statement() &&
+      (value_follows(cursor_, true) || *next_on_line(cursor_) == '{'))
     return Terminal::RETURN;
+  if (name == "as" && last_.kind == Grammar::symbol_kind::S_STRING &&
+      before_last_.kind == Grammar::symbol_kind::S_IMPORT && is_word_byte(*next_on_line(cursor_)))
+    return Terminal::AS;
   return std::nullopt;
 }
 
@@ -140,6 +144,7 @@ bool Lexer::may_begin_statement() const {
     case Grammar::symbol_kind::S_INTEGER:
     case Grammar::symbol_kind::S_FLOAT:
     case Grammar::symbol_kind::S_STRING:
+    case Grammar::symbol_kind::S_STRING_END:
     case Grammar::symbol_kind::S_TRUE:
     case Grammar::symbol_kind::S_FALSE:
     case Grammar::symbol_kind::S_GREATER:
@@ -175,6 +180,47 @@ bool Lexer::derivation_follows() const {
   const Byte* position = next_token_start() + name.size();
   while (*position == ' ') ++position;
   return !name.empty() && position[0] == '-' && position[1] == '>';
+}
+
+/// Says whether a '.' is between a value and the name of a part of it.
+bool Lexer::member_follows() const {
+  using Kind = Grammar::symbol_kind;
+  const bool is_behind_value =
+      last_.span.end == offset(token_) &&
+      (last_.kind == Kind::S_IDENTIFIER || last_.kind == Kind::S_RIGHT_PARENTHESIS ||
+       last_.kind == Kind::S_RIGHT_BRACKET || last_.kind == Kind::S_RIGHT_BRACE);
+  // At the end of a text that is still being written, the name may be what comes next.
+  return is_behind_value && (cursor_ == limit_ || is_word_byte(*cursor_));
+}
+
+/// Returns what a '{' begins. It is a dictionary where a value is to be.
+Terminal::token_kind_type Lexer::kind_of_brace() const {
+  using Kind = Grammar::symbol_kind;
+  if (derivation_follows()) return Terminal::DERIVING_BRACE;
+  constexpr std::array<int, 21> before_value = {Kind::S_ASSIGN,
+                                                Kind::S_ARROW,
+                                                Kind::S_COMMA,
+                                                Kind::S_LEFT_PARENTHESIS,
+                                                Kind::S_FIRST_PARENTHESIS,
+                                                Kind::S_LEFT_BRACKET,
+                                                Kind::S_FIRST_BRACKET,
+                                                Kind::S_RETURN,
+                                                Kind::S_QUESTION,
+                                                Kind::S_COLON,
+                                                Kind::S_IN,
+                                                Kind::S_PLUS,
+                                                Kind::S_EQUAL,
+                                                Kind::S_NOT_EQUAL,
+                                                Kind::S_ADD_ASSIGN,
+                                                Kind::S_STRING_START,
+                                                Kind::S_STRING_MIDDLE,
+                                                Kind::S_AND,
+                                                Kind::S_OR,
+                                                Kind::S_IF,
+                                                Kind::S_START_EXPRESSION};
+  const bool is_value =
+      std::find(before_value.begin(), before_value.end(), last_.kind) != before_value.end();
+  return is_value && compat_ != compat_2015 ? Terminal::DICTIONARY_BRACE : Terminal::LEFT_BRACE;
 }
 
 bool Lexer::arrow_follows() const {

@@ -30,9 +30,14 @@ bool is_library_path(std::string_view path) {
   return path.starts_with(prefix);
 }
 
-std::string_view find_library(const std::string& path, Span span) {
-  std::string_view name = std::string_view(path).substr(prefix.size());
+std::string_view library_name(std::string_view path) {
+  std::string_view name = path.substr(prefix.size());
   if (name.ends_with(ending)) name.remove_suffix(ending.size());
+  return name;
+}
+
+std::string_view find_library(const std::string& path, Span span) {
+  const std::string_view name = library_name(path);
   std::vector<std::string_view> paths;
   std::vector<std::string> listed;
   static const std::vector<std::string> all = [] {

@@ -21,6 +21,9 @@ std::span<const LibraryScript> library();
 /// Says whether an import's path is that of a script of the library. These reach no file.
 bool is_library_path(std::string_view path);
 
+/// Returns what a path of the library names in it: "colors" for "crt/colors".
+std::string_view library_name(std::string_view path);
+
 /// Returns the text of a script. Throws a Failure at `span` if there is none of that path.
 std::string_view find_library(const std::string& path, Span span);
 

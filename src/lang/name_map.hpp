@@ -27,6 +27,8 @@ struct DeclaredName {
   const Expression* value = nullptr;
   /// Indexes NameMap::scopes.
   std::size_t scope = 0;
+  /// That of the names of an import that has this name, or 0. It indexes NameMap::scopes, too.
+  std::size_t members = 0;
 };
 
 /// A NameUse is a place where a name stands.
@@ -40,7 +42,8 @@ struct NameUse {
 };
 
 struct NameScope {
-  /// Where its names can be seen, from brace to brace. That of the top level is everywhere.
+  /// Where its names can be seen, from brace to brace. That of the top level is everywhere, and
+  /// that of an import with a name nowhere.
   Span extent{};
   /// Indexes NameMap::scopes. The top level is its own parent.
   std::size_t parent = 0;

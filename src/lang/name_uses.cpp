@@ -37,23 +37,46 @@ class Visitor : public TreeWalk<Visitor> {
   }
   void operator()(const MacroLiteral& macro) {
     open_region(macro.body.span);
-    for (const NamePlace& parameter : macro.parameters) bind(parameter, NameUses::Kind::parameter);
+    for (std::size_t i = 0; i < macro.parameters.names.size(); ++i) {
+      visit(macro.parameters.defaults[i]);
+      bind(macro.parameters.names[i], NameUses::Kind::parameter);
+    }
     visit(macro.body);
     close_region();
   }
   void operator()(const Assignment& assignment) {
     // The value is computed before the variable is made.
     visit(assignment.value);
-    const Symbol symbol = assignment.name.symbol;
-    const bool was_read = regions_.back().read_from_outside.contains(symbol);
-    if (was_read && regions_.size() > 1 && !is_known_here(symbol))
-      uses_.shadowings.push_back({.name = assignment.name, .depth = regions_.size() - 1});
-    bind(assignment.name, kind_of(*assignment.value));
+    assign(assignment.name, kind_of(*assignment.value));
+  }
+  void operator()(const Destructuring& assignment) {
+    visit(assignment.value);
+    for (const NamePlace& name : assignment.names) assign(name, NameUses::Kind::variable);
+  }
+  void operator()(const Comprehension& list) {
+    for (const Clause& clause : list.clauses) {
+      visit(clause.operand);
+      bind_in_loop(clause.names);
+    }
+    visit(list.value);
+  }
+  void operator()(const While& loop) {
+    visit(loop.condition);
+    visit_loop(loop.body);
   }
   void operator()(const For& loop) {
     visit(loop.list);
-    regions_.back().loop_variables.insert(loop.variable.symbol);
-    visit(loop.body);
+    bind_in_loop(loop.variables);
+    visit_loop(loop.body);
+  }
+  void operator()(const Jump& jump) {
+    if (is_bound(std::get<Name>(jump.name->node).symbol)) return visit(jump.name);
+    if (regions_.back().open_loops > 0) return;
+    reporter_.error(jump.keyword, text::format("'{}' stands in a loop only",
+                                               jump.is_break ? "break" : "continue"));
+  }
+  void operator()(const Import& import) {
+    if (import.name) bind(*import.name, NameUses::Kind::variable);
   }
 
   void operator()(const Return& result) {
@@ -71,6 +94,7 @@ class Visitor : public TreeWalk<Visitor> {
     std::set<Symbol> loop_variables = {};
     std::set<Symbol> read_from_outside = {};
     std::size_t first_shadowing = 0;
+    int open_loops = 0;
   };
 
   static NameUses::Kind kind_of(const Expression& value) {
@@ -118,6 +142,23 @@ class Visitor : public TreeWalk<Visitor> {
       if (is_inside && knows(region, inner.name.symbol)) inner.is_bound_outside = true;
     }
     regions_.pop_back();
+  }
+
+  void assign(const NamePlace& name, NameUses::Kind kind) {
+    const bool was_read = regions_.back().read_from_outside.contains(name.symbol);
+    if (was_read && regions_.size() > 1 && !is_known_here(name.symbol))
+      uses_.shadowings.push_back({.name = name, .depth = regions_.size() - 1});
+    bind(name, kind);
+  }
+
+  void bind_in_loop(const std::vector<NamePlace>& names) {
+    for (const NamePlace& name : names) regions_.back().loop_variables.insert(name.symbol);
+  }
+
+  void visit_loop(const Block& body) {
+    ++regions_.back().open_loops;
+    visit(body);
+    --regions_.back().open_loops;
   }
 
   void bind(const NamePlace& name, NameUses::Kind kind) {

@@ -286,6 +286,16 @@ Value join_lists(Context& context, Span span, const ListValue& a, const ListValu
   return context.make_list(span, std::move(items));
 }
 
+/// Joins two dictionaries. Of entries with one name the right one counts.
+Value join_dictionaries(Context& context, Span span, const DictionaryValue& a,
+                        const DictionaryValue& b) {
+  context.spend(span, a.entries.size() + b.entries.size());
+  Variables entries;
+  for (const auto& [name, value] : a.entries) entries.set(name, value);
+  for (const auto& [name, value] : b.entries) entries.set(name, value);
+  return context.make_dictionary(span, std::move(entries));
+}
+
 Value with_strings(Context& context, BinaryOperator op, Span span, const Value& left,
                    const Value& right) {
   const auto* a = std::get_if<String>(&left);
@@ -314,6 +324,9 @@ Value other_types(Context& context, BinaryOperator op, Span span, const Value& l
       return colors(op, span, *color, std::get<Color>(right));
     if (const auto* list = std::get_if<List>(&left); list && op == BinaryOperator::add)
       return join_lists(context, span, **list, *std::get<List>(right));
+    const auto* dictionary = std::get_if<Dictionary>(&left);
+    if (dictionary && op == BinaryOperator::add)
+      return join_dictionaries(context, span, **dictionary, *std::get<Dictionary>(right));
   }
   Value result;
   if (scale_by_number<Vec3>(op, left, right, result) ||
@@ -357,6 +370,17 @@ void append(Context& context, Span op_span, const List& list, const ListValue& m
   }
   items.insert(items.end(), more.items.begin(), more.items.end());
   grown.depth = std::max(grown.depth, more.depth);
+}
+
+Entity union_of(Context& context, Span span, const std::vector<Entity>& parts) {
+  context.count_made(span);
+  try {
+    Entity whole = csg_union(parts);
+    context.check_size(span, whole);
+    return whole;
+  } catch (const Error& error) {
+    throw Failure{.span = span, .message = error.what(), .code = error.code()};
+  }
 }
 
 Value unary(UnaryOperator op, Span span, const Value& operand) {

@@ -22,6 +22,17 @@ Value unary(UnaryOperator op, Span span, const Value& operand);
 /// Returns base[index]: an item of a list, a component of a Vec3 or Color, a character of a string.
 Value item(Context& context, Span index_span, const Value& base, const Value& index);
 
+/// Returns base[first:end], of a list or a string. A bound that is left out is that end of it, and
+/// one below 0 counts from the end.
+Value slice(Context& context, Span span, const Value& base, std::optional<std::int64_t> first,
+            std::optional<std::int64_t> end);
+
+/// Returns the entry of a dictionary that is called so.
+Value entry(Context& context, Span span, const DictionaryValue& dictionary, std::string_view name);
+
+/// Returns the union of some entities, as one that was made at `span`.
+Entity union_of(Context& context, Span span, const std::vector<Entity>& parts);
+
 /// Returns the text of a value, as `+` joins it to a string and `str` gives it.
 std::string text_of(Context& context, Span span, const Value& value);
 

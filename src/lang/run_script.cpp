@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <deque>
+#include <map>
 #include <new>
 #include <set>
 #include <system_error>
@@ -62,7 +63,9 @@ class Session {
   void run_main(const Source& source, const Script& script, ScriptResult& result);
   void run_import(const Import& import);
   void run_library(const Import& import);
-  void run_imported(const Source& source);
+  template <class AddSource>
+  void run_once(const Import& import, const std::string& key, const AddSource& add_source);
+  const Script& load_imported(const Source& source, bool sets_here);
   std::size_t bytes_left() const;
   void take_variables();
   void take_settings();
@@ -83,8 +86,9 @@ class Session {
   fs::path main_directory_;
   std::vector<std::pair<fs::path, std::string>>
       running_;  ///< the script and the imports within one another
-  std::set<fs::path> imported_;
-  std::set<const char*> imported_from_library_;  ///< the texts that were
+  /// Says which scripts were imported into which top level.
+  std::set<std::pair<int, std::string>> imported_;
+  std::map<std::string, Value> imported_apart_;  ///< what those with a name have set
   std::set<Symbol> assigned_;                    ///< names set at the top level of any script
   NameUses name_uses_;                           ///< of the text that was loaded last
   std::set<Symbol> read_by_imports_;             ///< names that imported scripts read
@@ -224,32 +228,55 @@ void Session::run_import(const Import& import) {
         .span = span,
         .message = text::format("scripts import one another: {}{}", chain, printable(name))};
   }
-  if (!imported_.insert(found.path).second) return;
-  const Source& source = sources_.add(name, context_.files.read_text(found, bytes_left(), span),
-                                      found.shown.parent_path());
-  running_.emplace_back(found.path, name);
-  run_imported(source);
-  running_.pop_back();
+  const std::size_t depth = running_.size();
+  run_once(import, found.path.string(), [&]() -> const Source& {
+    const Source& source = sources_.add(name, context_.files.read_text(found, bytes_left(), span),
+                                        found.shown.parent_path());
+    running_.emplace_back(found.path, name);
+    return source;
+  });
+  running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(depth), running_.end());
 }
 
 /// Imports a script that comes with CRT. These import nothing.
 void Session::run_library(const Import& import) {
   const std::string_view text = find_library(import.path, import.path_span);
-  if (!imported_from_library_.insert(text.data()).second) return;
-  if (text.size() > bytes_left())
-    throw Failure{.span = import.path_span,
-                  .message = text::format("'{}' is too long", printable(import.path)),
-                  .code = ErrorCode::limit};
-  run_imported(sources_.add(import.path, std::string(text)));
+  // No path of a file has a name without a folder.
+  run_once(import, std::string(library_name(import.path)), [&]() -> const Source& {
+    if (text.size() > bytes_left())
+      throw Failure{.span = import.path_span,
+                    .message = text::format("'{}' is too long", printable(import.path)),
+                    .code = ErrorCode::limit};
+    return sources_.add(import.path, std::string(text));
+  });
 }
 
-void Session::run_imported(const Source& source) {
+/// Runs a script that is imported, once for each top level that it is imported into, and once for
+/// all imports that have a name. The names of these are set to the same dictionary.
+template <class AddSource>
+void Session::run_once(const Import& import, const std::string& key, const AddSource& add_source) {
+  if (!import.name) {
+    if (imported_.emplace(interpreter_.top_level(), key).second)
+      interpreter_.run(load_imported(add_source(), true), true);
+    return;
+  }
+  auto known = imported_apart_.find(key);
+  if (known == imported_apart_.end()) {
+    Value members = interpreter_.run_apart(load_imported(add_source(), false), import.path_span);
+    known = imported_apart_.emplace(key, std::move(members)).first;
+  }
+  interpreter_.set_variable(import.name->symbol, known->second);
+}
+
+/// Parses a script that is imported. `sets_here` says whether its variables are those of the
+/// script that imports it.
+const Script& Session::load_imported(const Source& source, bool sets_here) {
   const Script* script = load(source, TextKind::script);
   // Without these definitions the rest would only give false errors.
   if (!script) throw GiveUp{};
   for (const auto& [name, places] : name_uses_.reads) read_by_imports_.insert(name);
-  collect_assigned(script->statements, assigned_);
-  interpreter_.run(*script, true);
+  if (sets_here) collect_assigned(script->statements, assigned_);
+  return *script;
 }
 
 std::size_t Session::bytes_left() const {

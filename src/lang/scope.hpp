@@ -2,9 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "lang/symbol.hpp"
 #include "lang/value.hpp"
@@ -28,12 +26,15 @@ class Scope {
   Scope& target_of(Symbol name);
 
   /// Binds the name in this very scope.
-  void set(Symbol name, Value value);
+  template <class SomeValue>
+  void set(Symbol name, SomeValue&& value) {
+    variables_.set(name, std::forward<SomeValue>(value));
+  }
 
-  bool has(Symbol name) const { return find_here(name) != nullptr; }
+  bool has(Symbol name) const { return variables_.find(name) != nullptr; }
 
   /// Forgets all names, for another round of a loop.
-  void clear();
+  void clear() { variables_.clear(); }
 
   /// Says whether a macro made here may still need it, so that it must not be used again.
   bool is_captured() const { return captured_; }
@@ -41,17 +42,13 @@ class Scope {
 
   const Scope* parent() const { return parent_.get(); }
   const std::shared_ptr<Scope>& shared_parent() const { return parent_; }
-  const std::vector<std::pair<Symbol, Value>>& variables() const { return variables_; }
+  const Variables& variables() const { return variables_; }
 
  private:
-  const Value* find_here(Symbol name) const;
-
   Kind kind_;
   bool captured_ = false;
   std::shared_ptr<Scope> parent_;
-  std::vector<std::pair<Symbol, Value>> variables_;
-  /// Maps names to places in variables_, once there are too many for a linear search.
-  std::unique_ptr<std::unordered_map<Symbol, std::size_t>> index_;
+  Variables variables_;
 };
 
 }  // namespace crt::lang

@@ -82,4 +82,9 @@ std::string SourceMap::line_text(Span span) const {
   return std::string(text.substr(0, longest_line_bytes));
 }
 
+std::string_view SourceMap::text(Span span) const {
+  const Source& source = source_of(span);
+  return std::string_view(source.text).substr(span.begin - source.base, span.end - span.begin);
+}
+
 }  // namespace crt::lang

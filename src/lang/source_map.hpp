@@ -58,6 +58,9 @@ class SourceMap {
   /// Returns the line on which `span` begins, without its end. A very long line is cut off.
   std::string line_text(Span span) const;
 
+  /// Returns the text of a piece of a source.
+  std::string_view text(Span span) const;
+
   /// Returns the source that a place is in. There is at least one.
   const Source& source_of(Span span) const;
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -25,6 +26,12 @@ class SymbolTable {
     const auto symbol = static_cast<Symbol>(names_.size());
     symbols_.emplace(names_.emplace_back(name), symbol);
     return symbol;
+  }
+
+  /// Returns the symbol of a name, if there is one.
+  std::optional<Symbol> find(std::string_view name) const {
+    const auto known = symbols_.find(name);
+    return known == symbols_.end() ? std::nullopt : std::optional(known->second);
   }
 
   std::string_view name(Symbol symbol) const { return names_[static_cast<std::size_t>(symbol)]; }

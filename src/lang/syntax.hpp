@@ -44,12 +44,20 @@ struct NamePlace {
 /// A Literal is a number, string or Boolean (rule 23).
 struct Literal {
   Value value;
+  /// Says that the number is an angle written with its unit, such as 45deg.
+  bool is_angle = false;
 };
 
-/// A Number is written with a point or an exponent, or with a unit, such as 2.5 or 10mm.
+/// A Number is written with a point or an exponent, or with a unit, such as 2.5, 10mm or 45deg.
 struct Number {
   double value = 0;
   std::optional<Unit> unit{};
+  bool is_angle = false;
+};
+
+/// An Interpolation is a string with values in it, "a \{b} c": its parts in their order.
+struct Interpolation {
+  std::vector<const Expression*> parts;
 };
 
 /// A Length is a number with a unit, which the scene's own unit makes a Float of.
@@ -81,13 +89,19 @@ struct ObjectLiteral {
 
 /// A DerivedMaterial is name { attributes }: a copy of a material with other attributes.
 struct DerivedMaterial {
-  const Expression* base = nullptr;  ///< its name
+  const Expression* base = nullptr;  ///< its name, or that of a member
   std::vector<AttributeSyntax> attributes;
+};
+
+/// Parameters are names, each with its default or null.
+struct Parameters {
+  std::vector<NamePlace> names;
+  std::vector<const Expression*> defaults;
 };
 
 /// A MacroLiteral is Macro (parameters) { body } (rule 26).
 struct MacroLiteral {
-  std::vector<NamePlace> parameters;
+  Parameters parameters;
   Block body;
 };
 
@@ -96,16 +110,52 @@ struct ListLiteral {
   std::vector<const Expression*> items;
 };
 
+/// A Clause of a comprehension is `for names in list`, or `if condition`, which has no names.
+struct Clause {
+  Span keyword;
+  std::vector<NamePlace> names;
+  const Expression* operand = nullptr;
+};
+
+/// A Comprehension is [value for names in list if condition].
+struct Comprehension {
+  const Expression* value = nullptr;
+  std::vector<Clause> clauses;
+};
+
+/// A DictionaryLiteral is {name -> value, ...}.
+struct DictionaryLiteral {
+  std::vector<AttributeSyntax> entries;
+};
+
 /// An Index is base[index] (rule 9).
 struct Index {
   const Expression* base = nullptr;
   const Expression* index = nullptr;
 };
 
+/// A Slice is base[first:end]. Either bound may be null.
+struct Slice {
+  const Expression* base = nullptr;
+  const Expression* first = nullptr;
+  const Expression* end = nullptr;
+  Span colon{};
+};
+
+/// A Member is base.name.
+struct Member {
+  const Expression* base = nullptr;
+  NamePlace name;
+};
+
 /// A Call is callee(arguments) (rule 10).
 struct Call {
   const Expression* callee = nullptr;
   std::vector<const Expression*> arguments;
+  /// These are the names of the last arguments, which are given as name -> value.
+  std::vector<NamePlace> names;
+
+  std::size_t unnamed() const { return arguments.size() - names.size(); }
 };
 
 enum class ModifierKind { scale, translate, rotate, material, id, matrix, shadow, visible };
@@ -179,9 +229,16 @@ struct Assignment {
   const Expression* value = nullptr;
 };
 
+/// A Destructuring is [a, b] = value.
+struct Destructuring {
+  std::vector<NamePlace> names;
+  const Expression* value = nullptr;
+};
+
 using ExpressionNode =
-    std::variant<Literal, Length, Name, ObjectLiteral, DerivedMaterial, MacroLiteral, ListLiteral,
-                 Index, Call, Modified, Unary, Chain, Logical, Conditional, Assignment>;
+    std::variant<Literal, Length, Interpolation, Name, ObjectLiteral, DerivedMaterial, MacroLiteral,
+                 ListLiteral, Comprehension, DictionaryLiteral, Index, Slice, Member, Call,
+                 Modified, Unary, Chain, Logical, Conditional, Assignment, Destructuring>;
 
 struct Expression {
   Span span;
@@ -211,11 +268,19 @@ struct If {
   std::vector<Branch> branches;
 };
 
+/// A For is for (names in list) { ... }. Several names take the items of each item.
 struct For {
   Span keyword;
-  NamePlace variable;
+  std::vector<NamePlace> variables;
   const Expression* list = nullptr;
   Block body;
+};
+
+/// A Jump is a break or a continue, unless there is a variable of that name.
+struct Jump {
+  Span keyword;
+  bool is_break = true;
+  const Expression* name = nullptr;
 };
 
 /// A Return ends a macro's call, with a value or without.
@@ -236,14 +301,17 @@ struct SceneBlock {
   Block body;
 };
 
+/// An Import is import "path", or import "path" as name.
 struct Import {
   Span path_span;
   std::string path;
+  std::optional<NamePlace> name{};
 };
 
 struct Statement {
   Span span;
-  std::variant<ExpressionStatement, While, If, For, Return, SettingsBlock, SceneBlock, Import> node;
+  std::variant<ExpressionStatement, While, If, For, Jump, Return, SettingsBlock, SceneBlock, Import>
+      node;
   int height = 0;
 };
 

@@ -18,6 +18,8 @@ using Names = std::set<std::string>;
 constexpr std::array expression_starts = {"a whole number",
                                           "a number",
                                           "a string",
+                                          "a string up to a value",
+                                          "{ of a dictionary",
                                           "a name",
                                           "an object's name",
                                           "Macro",
@@ -53,6 +55,7 @@ constexpr std::array operators = {"**",
                                   "=",
                                   "(",
                                   "[",
+                                  ".",
                                   "< before a modifier",
                                   "{ behind a name"};
 constexpr std::array statement_starts = {"while",    "if",    "for",  "import", "return",
@@ -80,8 +83,14 @@ std::vector<std::string> in_words(const std::vector<std::string>& expected) {
     erase(names, expression_starts);
     erase(names, operators);
   }
-  // The '=' of a parameter's default is an error of its own.
-  if (names.contains(",") && !after_operand) names.erase("=");
+  // The '=' of a parameter's default is an error of its own. What may be left out is not expected.
+  if (names.contains(",") && !after_operand) erase(names, std::array{"=", "->"});
+  if (after_operand) names.erase("->");
+  if (names.contains("]")) erase(names, std::array{"for", ":"});
+  if (names.erase("a string between values") > 0) {
+    names.erase("the end of a string");
+    names.insert("}");
+  }
   // A name at the beginning of a modifier is an error of its own.
   if (names.contains("rotate") && !whole_expression && !statement) names.erase("a name");
   if (attribute) {
@@ -107,7 +116,7 @@ std::vector<std::string> in_words(const std::vector<std::string>& expected) {
 std::string TreeBuilder::describe_found(Span place, const std::string& found) const {
   constexpr std::size_t longest_shown = 30;
   if (found == "the end of the script") return found;
-  if (found == "a string") return "string";
+  if (found == "a string" || found == "a string up to a value") return "string";
   const std::string text(lexer_.text(place).substr(0, longest_shown));
   return "'" + text + "'";
 }

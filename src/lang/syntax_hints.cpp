@@ -73,7 +73,7 @@ void TreeBuilder::unknown_modifier(Span name) {
 }
 
 void TreeBuilder::refuse_default(Span equals) {
-  reporter_.error(equals, "parameters have no defaults: each call gives all of them");
+  reporter_.error(equals, "the default of a parameter is written with '->', as in Macro (h -> 1)");
 }
 
 std::string TreeBuilder::hint(Span place, const std::string& found,

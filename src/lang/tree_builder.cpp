@@ -54,8 +54,22 @@ int height_of_node(const ExpressionNode& node) {
           [](const DerivedMaterial& material) {
             return std::max(height_of(material.base), height_of(material.attributes));
           },
-          [](const MacroLiteral& macro) { return height_of(macro.body); },
+          [](const MacroLiteral& macro) {
+            return std::max(height_of(macro.body), height_of(macro.parameters.defaults));
+          },
           [](const ListLiteral& list) { return height_of(list.items); },
+          [](const Interpolation& text) { return height_of(text.parts); },
+          [](const Comprehension& list) {
+            int height = height_of(list.value);
+            for (const Clause& clause : list.clauses)
+              height = std::max(height, height_of(clause.operand));
+            return height;
+          },
+          [](const DictionaryLiteral& dictionary) { return height_of(dictionary.entries); },
+          [](const Slice& slice) {
+            return std::max({height_of(slice.base), height_of(slice.first), height_of(slice.end)});
+          },
+          [](const Member& member) { return height_of(member.base); },
           [](const Index& index) {
             return std::max(height_of(index.base), height_of(index.index));
           },
@@ -70,6 +84,7 @@ int height_of_node(const ExpressionNode& node) {
             return std::max({height_of(c.condition), height_of(c.yes), height_of(c.no)});
           },
           [](const Assignment& assignment) { return height_of(assignment.value); },
+          [](const Destructuring& assignment) { return height_of(assignment.value); },
       },
       node);
 }
@@ -88,6 +103,7 @@ int height_of_node(const Statement& statement) {
             return height;
           },
           [](const For& loop) { return std::max(height_of(loop.list), height_of(loop.body)); },
+          [](const Jump& jump) { return height_of(jump.name); },
           [](const Return& result) {
             return std::max(height_of(result.value), height_of(result.name));
           },
@@ -96,6 +112,17 @@ int height_of_node(const Statement& statement) {
           [](const Import&) { return 0; },
       },
       statement.node);
+}
+
+/// Returns the names of [a, b], or nothing if it has anything else in it.
+std::optional<std::vector<NamePlace>> names_of(const ListLiteral& list) {
+  std::vector<NamePlace> names;
+  for (const Expression* item : list.items) {
+    const auto* name = std::get_if<Name>(&item->node);
+    if (!name) return std::nullopt;
+    names.push_back({name->symbol, item->span});
+  }
+  return names;
 }
 
 }  // namespace
@@ -169,7 +196,17 @@ Expression* TreeBuilder::assignment(Span span, Expression* target, Span op_span,
                                     const Expression* value) {
   if (const auto* name = std::get_if<Name>(&target->node))
     return expression(span, Assignment{{name->symbol, target->span}, value});
-  reporter_.error(target->span, "only a variable can be assigned; to compare, write '=='");
+  const auto* list = std::get_if<ListLiteral>(&target->node);
+  if (auto names = list && !list->items.empty() ? names_of(*list) : std::nullopt) {
+    refuse_repeated(*names, "two of these variables are the same");
+    return expression(span, Destructuring{std::move(*names), value});
+  }
+  const bool is_part = std::holds_alternative<Index>(target->node) ||
+                       std::holds_alternative<Slice>(target->node) ||
+                       std::holds_alternative<Member>(target->node);
+  reporter_.error(target->span, is_part ? "only a variable can be assigned, as values never change"
+                                        : "only a variable can be assigned; to compare, write "
+                                          "'=='");
   return chain(target, BinaryOperator::equal, op_span, value);
 }
 
@@ -180,26 +217,83 @@ Expression* TreeBuilder::assignment(Span span, Expression* target, BinaryOperato
   return assignment(span, target, op_span, value);
 }
 
-/// Makes a statement of an expression. `return` alone may end a macro.
+/// Makes a statement of an expression. `return` alone may end a macro, and `break` and `continue`
+/// a loop.
 Statement TreeBuilder::expression_statement(Span span, const Expression* expression) {
-  const auto* name = std::get_if<Name>(&expression->node);
-  if (name && lexer_.text(span) == "return")
-    return statement(span, Return{span, nullptr, expression});
+  if (!std::holds_alternative<Name>(expression->node))
+    return statement(span, ExpressionStatement{expression});
+  const std::string_view word = lexer_.text(span);
+  if (word == "return") return statement(span, Return{span, nullptr, expression});
+  if ((word == "break" || word == "continue") && lexer_.compat() != compat_2015)
+    return statement(span, Jump{span, word == "break", expression});
   return statement(span, ExpressionStatement{expression});
 }
 
-Expression* TreeBuilder::macro(Span span, std::vector<NamePlace> parameters, Block body) {
+void TreeBuilder::refuse_repeated(const std::vector<NamePlace>& names, const char* message) {
   std::vector<Symbol> seen;
-  seen.reserve(parameters.size());
-  for (const NamePlace& parameter : parameters) seen.push_back(parameter.symbol);
+  seen.reserve(names.size());
+  for (const NamePlace& name : names) seen.push_back(name.symbol);
   std::sort(seen.begin(), seen.end());
-  for (const NamePlace& parameter : parameters) {
-    const auto same = std::equal_range(seen.begin(), seen.end(), parameter.symbol);
+  for (const NamePlace& name : names) {
+    const auto same = std::equal_range(seen.begin(), seen.end(), name.symbol);
     if (same.second - same.first < 2) continue;
-    reporter_.error(parameter.span, "two parameters of a macro have this name");
+    reporter_.error(name.span, message);
     break;
   }
+}
+
+Expression* TreeBuilder::macro(Span span, Parameters parameters, Block body) {
+  refuse_repeated(parameters.names, "two parameters of a macro have this name");
   return expression(span, MacroLiteral{std::move(parameters), std::move(body)});
+}
+
+Parameters TreeBuilder::parameter(Parameters parameters, const AttributeSyntax& parameter) {
+  parameters.names.push_back(parameter.name);
+  parameters.defaults.push_back(parameter.value);
+  return parameters;
+}
+
+Expression* TreeBuilder::interpolation(Span span, const Expression* first,
+                                       std::vector<const Expression*> parts,
+                                       const Expression* last) {
+  parts.insert(parts.begin(), first);
+  parts.push_back(last);
+  return expression(span, Interpolation{std::move(parts)});
+}
+
+Call TreeBuilder::argument(Call call, const Expression* value) {
+  if (!call.names.empty())
+    reporter_.error(value->span, "arguments without a name stand before those with one");
+  else
+    call.arguments.push_back(value);
+  return call;
+}
+
+Call TreeBuilder::argument(Call call, NamePlace name, const Expression* value) {
+  call.arguments.push_back(value);
+  call.names.push_back(name);
+  return call;
+}
+
+Expression* TreeBuilder::call(Span span, const Expression* callee, Call call) {
+  call.callee = callee;
+  refuse_repeated(call.names, "two arguments have this name");
+  return expression(span, std::move(call));
+}
+
+Expression* TreeBuilder::comprehension(Span span, const Expression* value,
+                                       std::vector<Clause> clauses) {
+  for (const Clause& clause : clauses)
+    refuse_repeated(clause.names, "two of these variables are the same");
+  return expression(span, Comprehension{value, std::move(clauses)});
+}
+
+Expression* TreeBuilder::dictionary(Span span, std::vector<AttributeSyntax> entries) {
+  std::vector<NamePlace> names;
+  names.reserve(entries.size());
+  for (const AttributeSyntax& entry : entries) names.push_back(entry.name);
+  refuse_repeated(names, "two entries of a dictionary have this name");
+  return expression(span, DictionaryLiteral{std::move(entries)});
 }
 
 Statement TreeBuilder::finish_statement(Statement statement) {

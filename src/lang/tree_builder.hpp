@@ -37,19 +37,35 @@ class TreeBuilder {
   }
   Expression* number(Span span, const Number& number) {
     if (number.unit) return expression(span, Length{number.value, *number.unit});
-    return literal(span, number.value);
+    return expression(span, Literal{number.value, number.is_angle});
   }
   static Value string(std::string text);
 
   Expression* expression(Span span, ExpressionNode node);
   Expression* chain(Expression* left, BinaryOperator op, Span op_span, const Expression* right);
   Expression* logical(LogicalOperator op, Expression* left, const Expression* right);
-  /// Builds `target = value`. Where `target` is no name, that is an error, and a comparison.
+  /// Builds `target = value`. Where `target` is neither a name nor a list of names, that is an
+  /// error, and a comparison.
   Expression* assignment(Span span, Expression* target, Span op_span, const Expression* value);
   /// Builds `target op= value`, which is `target = target op value`.
   Expression* assignment(Span span, Expression* target, BinaryOperator op, Span op_span,
                          const Expression* value);
-  Expression* macro(Span span, std::vector<NamePlace> parameters, Block body);
+  Expression* macro(Span span, Parameters parameters, Block body);
+  static Parameters parameter(Parameters parameters, const AttributeSyntax& parameter);
+  Expression* member(Span span, const Expression* base, NamePlace name) {
+    return expression(span, Member{base, name});
+  }
+  /// Returns a piece of a string with values in it.
+  Expression* text(Span span, std::string text) { return literal(span, string(std::move(text))); }
+  Expression* interpolation(Span span, const Expression* first,
+                            std::vector<const Expression*> parts, const Expression* last);
+  Call argument(Call call, const Expression* value);
+  static Call argument(Call call, NamePlace name, const Expression* value);
+  Expression* call(Span span, const Expression* callee, Call call);
+  Expression* comprehension(Span span, const Expression* value, std::vector<Clause> clauses);
+  Expression* dictionary(Span span, std::vector<AttributeSyntax> entries);
+  /// Returns the name that the text of a string is.
+  NamePlace key(Span span, const std::string& text) { return {lexer_.intern(text), span}; }
 
   template <class Node>
   Statement statement(Span span, Node node) {
@@ -73,6 +89,7 @@ class TreeBuilder {
 
  private:
   Statement finish_statement(Statement statement);
+  void refuse_repeated(const std::vector<NamePlace>& names, const char* message);
   void check_height(Span span, int height);
   void charge(std::size_t bytes, Span span);
   std::string hint(Span place, const std::string& found,

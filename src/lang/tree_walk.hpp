@@ -17,18 +17,35 @@ class TreeWalk {
  public:
   void operator()(const Literal&) {}
   void operator()(const Length&) {}
+  void operator()(const Interpolation& text) { derived().visit(text.parts); }
   void operator()(const Name&) {}
   void operator()(const ObjectLiteral& object) { derived().visit(object.attributes); }
   void operator()(const DerivedMaterial& material) {
     derived().visit(material.base);
     derived().visit(material.attributes);
   }
-  void operator()(const MacroLiteral& macro) { derived().visit(macro.body); }
+  void operator()(const MacroLiteral& macro) {
+    derived().visit(macro.parameters.defaults);
+    derived().visit(macro.body);
+  }
   void operator()(const ListLiteral& list) { derived().visit(list.items); }
+  void operator()(const Comprehension& list) {
+    derived().visit(list.value);
+    for (const Clause& clause : list.clauses) derived().visit(clause.operand);
+  }
+  void operator()(const DictionaryLiteral& dictionary) {
+    for (const AttributeSyntax& entry : dictionary.entries) derived().visit(entry.value);
+  }
   void operator()(const Index& index) {
     derived().visit(index.base);
     derived().visit(index.index);
   }
+  void operator()(const Slice& slice) {
+    derived().visit(slice.base);
+    derived().visit(slice.first);
+    derived().visit(slice.end);
+  }
+  void operator()(const Member& member) { derived().visit(member.base); }
   void operator()(const Call& call) {
     derived().visit(call.callee);
     derived().visit(call.arguments);
@@ -49,6 +66,7 @@ class TreeWalk {
     derived().visit(conditional.no);
   }
   void operator()(const Assignment& assignment) { derived().visit(assignment.value); }
+  void operator()(const Destructuring& assignment) { derived().visit(assignment.value); }
 
   void operator()(const ExpressionStatement& statement) { derived().visit(statement.expression); }
   void operator()(const While& loop) {
@@ -65,6 +83,7 @@ class TreeWalk {
     derived().visit(loop.list);
     derived().visit(loop.body);
   }
+  void operator()(const Jump& jump) { derived().visit(jump.name); }
   void operator()(const Return& result) {
     derived().visit(result.value);
     derived().visit(result.name);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "crt/field.hpp"
 #include "crt/light.hpp"
 #include "crt/material.hpp"
+#include "lang/symbol.hpp"
 
 namespace crt::lang {
 
@@ -24,6 +26,7 @@ struct MacroLiteral;
 class Scope;
 struct StringValue;
 struct ListValue;
+struct DictionaryValue;
 struct MacroValue;
 
 /// Nothing is what a call without a value gives, such as that of `print`.
@@ -35,11 +38,12 @@ struct Unknown {};
 
 using String = std::shared_ptr<const StringValue>;
 using List = std::shared_ptr<const ListValue>;
+using Dictionary = std::shared_ptr<const DictionaryValue>;
 using Macro = std::shared_ptr<const MacroValue>;
 
 // The order is that of type_name() in value.cpp.
 using Value = std::variant<Nothing, Unknown, std::int64_t, double, bool, Vec3, Color, String, List,
-                           Macro, const Builtin*, Entity, SharedMaterial,
+                           Dictionary, Macro, const Builtin*, Entity, SharedMaterial,
                            std::shared_ptr<const Pattern>, std::shared_ptr<const Light>,
                            std::shared_ptr<const Camera>, std::shared_ptr<const Background>, Field>;
 
@@ -78,7 +82,41 @@ struct StringValue {
 
 struct ListValue {
   std::vector<Value> items;
-  /// The depth counts lists within lists: 1 for a flat one.
+  /// The depth counts lists and dictionaries within one another: 1 for a flat one.
+  int depth = 1;
+  Charge charge = {};
+};
+
+/// Variables are names bound to values, in the order in which they were set first.
+class Variables {
+ public:
+  /// Returns the value of a name, or null.
+  const Value* find(Symbol name) const {
+    if (index_) return find_by_index(name);
+    for (const auto& [symbol, value] : variables_) {
+      if (symbol == name) return &value;
+    }
+    return nullptr;
+  }
+  void set(Symbol name, Value value);
+  void clear();
+
+  std::size_t size() const { return variables_.size(); }
+  auto begin() const { return variables_.begin(); }
+  auto end() const { return variables_.end(); }
+
+ private:
+  const Value* find_by_index(Symbol name) const;
+
+  std::vector<std::pair<Symbol, Value>> variables_;
+  /// Maps names to places in variables_, once there are too many for a linear search.
+  std::unique_ptr<std::unordered_map<Symbol, std::size_t>> index_;
+};
+
+/// A DictionaryValue has values by names.
+struct DictionaryValue {
+  Variables entries;
+  /// The depth counts dictionaries and lists within one another, as that of a list does.
   int depth = 1;
   Charge charge = {};
 };
@@ -88,6 +126,9 @@ struct MacroValue {
   const MacroLiteral* literal = nullptr;
   std::shared_ptr<Scope> scope;
 };
+
+/// Returns the depth of a list or dictionary, and 0 for all others.
+int depth_of(const Value& value);
 
 /// Returns "Integer", "Vec3", ...
 std::string_view type_name(const Value& value);

@@ -49,8 +49,11 @@ struct CutText {
 bool ends_in_text(const CutText& cut) {
   const auto& [tokens, comments, open] = cut.tokens;
   if (!comments.empty() && comments.back().end == cut.end()) return true;
-  return !tokens.empty() && tokens.back().kind == Kind::S_STRING &&
-         tokens.back().span.end == cut.end();
+  if (tokens.empty() || tokens.back().span.end != cut.end()) return false;
+  // Where a value in a string is open, an empty token ends the string.
+  const bool is_empty = tokens.back().span.begin == cut.end();
+  return !is_empty &&
+         (tokens.back().kind == Kind::S_STRING || tokens.back().kind == Kind::S_STRING_END);
 }
 
 /// An OpenObject is the object whose braces the cursor is in.
@@ -60,14 +63,22 @@ struct OpenObject {
   bool is_derived = false;
 };
 
-/// Returns the type of the material that a name stands for at the end of a text, or null.
-const lang::ObjectType* type_of_material(const Program& before, std::string_view name,
-                                         std::uint32_t end) {
+/// Returns what a name stands for at the end of a text, or null.
+const lang::DeclaredName* declared_as(const Program& before, std::string_view name,
+                                      std::uint32_t end) {
   for (const lang::DeclaredName* declared : lang::names_at(before.names(), end)) {
-    if (before.symbols().name(declared->symbol) == name)
-      return declared->value ? material_type(before, *declared->value) : nullptr;
+    if (before.symbols().name(declared->symbol) == name) return declared;
   }
   return nullptr;
+}
+
+/// Returns the name that stands at a token of a text and is no part of another value, or nothing.
+std::string_view name_at(const CutText& cut, std::size_t token) {
+  const auto& tokens = cut.tokens.tokens;
+  if (token >= tokens.size() || tokens[token].kind != Kind::S_IDENTIFIER) return {};
+  if (token > 0 && tokens[token - 1].kind == Kind::S_DOT) return {};
+  const lang::Span span = tokens[token].span;
+  return std::string_view(cut.source->text).substr(span.begin, span.end - span.begin);
 }
 
 /// `before` is the program of the same text.
@@ -82,8 +93,10 @@ std::optional<OpenObject> open_object(const CutText& cut, const Program& before)
     if (kind != Kind::S_OBJECT_NAME && !is_derived) return std::nullopt;
     const std::string_view name =
         std::string_view(cut.source->text).substr(span.begin, span.end - span.begin);
-    const lang::ObjectType* type =
-        is_derived ? type_of_material(before, name, cut.end()) : lang::find_object_type(name);
+    const lang::DeclaredName* base = is_derived ? declared_as(before, name, cut.end()) : nullptr;
+    const lang::ObjectType* type = !is_derived           ? lang::find_object_type(name)
+                                   : base && base->value ? material_type(before, *base->value)
+                                                         : nullptr;
     return type ? std::optional(OpenObject{type, span, is_derived}) : std::nullopt;
   }
   return std::nullopt;
@@ -137,6 +150,10 @@ class Completer {
     if (list_.begin < list_.end && text[list_.begin] >= '0' && text[list_.begin] <= '9')
       return list_;
     const Program before(cut.source->text, program_.main().name, options_);
+    if (after_dot(cut)) {
+      add_members(cut, before);
+      return std::move(list_);
+    }
     const std::optional<OpenObject> object = open_object(cut, before);
     if (object && object->is_derived && after_brace(cut)) {
       add_attributes(*object);
@@ -147,6 +164,7 @@ class Completer {
         cut.expects("a name") && cut.expects("}") && !cut.expects("a whole number");
     if (object && (attribute_fits || cut.expected.empty())) add_attributes(*object);
     const bool in_object = unsure && !list_.items.empty();
+    if (cut.expects("a whole number")) add_parameters(cut, before);
     if (cut.expects("a whole number") || (unsure && !in_object)) add_expressions(before);
     for (const std::string& name : cut.expected) {
       if (!std::all_of(name.begin(), name.end(), lang::is_word_byte)) continue;
@@ -162,6 +180,55 @@ class Completer {
   static bool after_less(const CutText& cut) {
     return !cut.tokens.tokens.empty() &&
            cut.source->text[cut.tokens.tokens.back().span.begin] == '<';
+  }
+
+  /// Says whether the text ends in the '.' before the name of a part.
+  static bool after_dot(const CutText& cut) {
+    return !cut.tokens.tokens.empty() && cut.tokens.tokens.back().kind == Kind::S_DOT;
+  }
+
+  /// Adds what a value before a '.' may have: the names of an import or of a dictionary, if it is
+  /// known to be one, else the components of a Vec3 and a Color.
+  void add_members(const CutText& cut, const Program& before) {
+    const std::size_t dot = cut.tokens.tokens.size() - 1;
+    const std::string_view name = dot > 0 ? name_at(cut, dot - 1) : std::string_view();
+    const lang::DeclaredName* base = declared_as(before, name, cut.end());
+    if (base && base->members > 0) {
+      std::set<std::size_t> members;
+      for (const auto& [symbol, declared] : before.names().scopes[base->members].names)
+        members.insert(declared);
+      for (const std::size_t member : members)
+        list_.items.push_back(items_.name(before, before.names().declared[member], 0));
+      return;
+    }
+    const auto* dictionary =
+        base && base->value ? std::get_if<lang::DictionaryLiteral>(&base->value->node) : nullptr;
+    if (dictionary) {
+      for (const lang::AttributeSyntax& entry : dictionary->entries)
+        list_.items.push_back(items_.part(before.symbols().name(entry.name.symbol)));
+      return;
+    }
+    for (const char* part : {"x", "y", "z", "r", "g", "b", "a"})
+      list_.items.push_back(items_.part(part));
+  }
+
+  /// Adds the parameters of the macro in whose call the cursor is, where an argument may begin.
+  void add_parameters(const CutText& cut, const Program& before) {
+    const auto& [tokens, comments, open] = cut.tokens;
+    if (open.empty() || tokens.empty()) return;
+    const auto bracket = std::find_if(tokens.begin(), tokens.end(), [&](const lang::Token& token) {
+      return token.span == open.back() && token.kind == Kind::S_LEFT_PARENTHESIS;
+    });
+    const bool begins = tokens.back().kind == Kind::S_COMMA || bracket == std::prev(tokens.end());
+    if (bracket == tokens.begin() || bracket == tokens.end() || !begins) return;
+    const auto callee = static_cast<std::size_t>(bracket - tokens.begin()) - 1;
+    const lang::DeclaredName* name = declared_as(before, name_at(cut, callee), cut.end());
+    const auto* macro =
+        name && name->value ? std::get_if<lang::MacroLiteral>(&name->value->node) : nullptr;
+    if (!macro) return;
+    const bool needs_arrow = !arrow_follows(program_.main().text, list_.end);
+    for (const lang::NamePlace& parameter : macro->parameters.names)
+      list_.items.push_back(items_.parameter(before.symbols().name(parameter.symbol), needs_arrow));
   }
 
   /// Says whether the text ends in a brace. That is where a derived material has no attribute yet,

@@ -86,6 +86,17 @@ Completion CompletionItems::keyword(const std::string& name) const {
   return item;
 }
 
+Completion CompletionItems::part(std::string_view name) {
+  return plain(CompletionKind::attribute, std::string(name), needed);
+}
+
+Completion CompletionItems::parameter(std::string_view name, bool needs_arrow) {
+  Completion item = part(name);
+  item.detail = "parameter";
+  if (needs_arrow) item.text += " -> ";
+  return item;
+}
+
 Completion CompletionItems::name(const Program& program, const lang::DeclaredName& name,
                                  int rank) const {
   const bool is_macro = name.kind == lang::NameKind::macro;
@@ -102,9 +113,11 @@ std::string signature_of(const Program& program, const lang::DeclaredName& name)
   if (!name.value) return std::string(text);
   if (const auto* macro = std::get_if<lang::MacroLiteral>(&name.value->node)) {
     std::string parameters;
-    for (const lang::NamePlace& parameter : macro->parameters) {
-      if (!parameters.empty()) parameters += ", ";
-      parameters += program.symbols().name(parameter.symbol);
+    for (std::size_t i = 0; i < macro->parameters.names.size(); ++i) {
+      if (i > 0) parameters += ", ";
+      parameters += program.symbols().name(macro->parameters.names[i].symbol);
+      if (const lang::Expression* value = macro->parameters.defaults[i])
+        parameters += text::format(" -> {}", lang::abbreviated(program.text_of(value->span)));
     }
     return text::format("{}({})", text, parameters);
   }

@@ -20,6 +20,9 @@ class CompletionItems {
   Completion function(const lang::Builtin& builtin) const;
   Completion constant(const std::string& name) const;
   Completion keyword(const std::string& name) const;
+  /// Returns a part of a value: a component of a Vec3, or an entry of a dictionary.
+  static Completion part(std::string_view name);
+  static Completion parameter(std::string_view name, bool needs_arrow);
   Completion name(const Program& program, const lang::DeclaredName& name, int rank) const;
 
  private:

@@ -15,8 +15,10 @@ constexpr int max_steps = 40;
 const lang::Expression* origin_of(const Program& program, const lang::Expression& expression) {
   if (const auto* derived = std::get_if<lang::DerivedMaterial>(&expression.node))
     return derived->base;
-  if (!std::holds_alternative<lang::Name>(expression.node)) return nullptr;
-  const lang::DeclaredName* name = program.declared_at(expression.span);
+  const auto* member = std::get_if<lang::Member>(&expression.node);
+  if (!member && !std::holds_alternative<lang::Name>(expression.node)) return nullptr;
+  const lang::DeclaredName* name =
+      program.declared_at(member ? member->name.span : expression.span);
   return name && name->kind == lang::NameKind::variable ? name->value : nullptr;
 }
 

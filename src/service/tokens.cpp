@@ -1,6 +1,7 @@
 #include "service/tokens.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -14,7 +15,12 @@ using Kind = lang::Grammar::symbol_kind;
 
 TokenKind kind_of_name(const Program& program, lang::Span span) {
   const lang::NameUse* use = lang::use_at(program.names(), span.begin);
-  if (!use || use->span != span) return TokenKind::variable;
+  if (!use || use->span != span) {
+    constexpr std::array jumps = {"return", "break", "continue"};
+    const bool is_jump =
+        std::find(jumps.begin(), jumps.end(), program.text_of(span)) != jumps.end();
+    return is_jump ? TokenKind::keyword : TokenKind::variable;
+  }
   if (use->declared == lang::NameUse::nothing) {
     const std::string_view name = program.symbols().name(use->symbol);
     const auto builtins = lang::builtins();
@@ -37,6 +43,9 @@ TokenKind kind_of_name(const Program& program, lang::Span span) {
 std::optional<TokenKind> token_kind(const Program& program, const lang::Token& token, int next) {
   switch (token.kind) {
     case Kind::S_STRING:
+    case Kind::S_STRING_START:
+    case Kind::S_STRING_MIDDLE:
+    case Kind::S_STRING_END:
       return TokenKind::string;
     case Kind::S_INTEGER:
     case Kind::S_FLOAT:

@@ -127,6 +127,7 @@ json scene_message(const View& view) {
           {"warnings", view.prepared.warnings()},
           {"isOverridden", view.camera_is_overridden},
           {"readsTime", view.reads_time},
+          {"frames", settings.frames},
           {"unit", schema::script_name_of(settings.unit)},
           {"camera",
            {{"position", vector_json(camera.position)},

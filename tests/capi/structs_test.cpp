@@ -253,6 +253,7 @@ TEST_CASE("what a scene was given it gives back") {
   settings.min_samples = 8;
   settings.max_samples = 32;
   settings.filter = CRT_FILTER_BLACKMAN_HARRIS;
+  settings.frames = 48;
   REQUIRE(crt_scene_set_settings(scene.get(), &settings) == CRT_OK);
   crt_settings settings_back;
   settings_back.struct_size = sizeof settings_back;
@@ -269,6 +270,7 @@ TEST_CASE("what a scene was given it gives back") {
   CHECK(settings_back.min_samples == 8);
   CHECK(settings_back.max_samples == 32);
   CHECK(settings_back.filter == CRT_FILTER_BLACKMAN_HARRIS);
+  CHECK(settings_back.frames == 48);
 }
 
 TEST_CASE("a background's image goes in and comes out, and outlives its handle") {

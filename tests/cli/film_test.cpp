@@ -120,6 +120,34 @@ TEST_CASE_FIXTURE(Fixture,
   CHECK(folder.names() == Names{"ball.crt", "bin", "film.mp4"});
 }
 
+TEST_CASE_FIXTURE(Fixture, "a film has the frames that the script says, if no others are named") {
+  const auto environment =
+      with_ffmpeg("for last; do true; done\n{ echo \"$@\"; wc -c; } >\"$last\"\n");
+  std::string script = film_script;
+  script.insert(script.find("width"), "frames -> 2 * 2\n  ");
+  folder.write("film.crt", script);
+  const auto bytes_of = [&](const std::vector<std::string>& options, const std::string& file) {
+    std::vector<std::string> command = {"render", "film.crt"};
+    command.insert(command.end(), options.begin(), options.end());
+    const Outcome run = run_crt_in({.environment = environment}, folder, command);
+    CHECK_MESSAGE(run.exit_code == 0, run.err);
+    const std::string written = folder.read(file);
+    return std::stoi(written.substr(written.find('\n') + 1));
+  };
+  constexpr int bytes_of_frame = 60 * 44 * 3;
+  CHECK(bytes_of({"--film"}, "film.mp4") == 4 * bytes_of_frame);
+  CHECK(bytes_of({"-o", "other.gif"}, "other.gif") == 4 * bytes_of_frame);
+  CHECK(bytes_of({"--film", "--frames", "1-2"}, "film.mp4") == 2 * bytes_of_frame);
+
+  const Outcome run =
+      run_crt_in({.environment = environment}, folder, {"render", "ball.crt", "-o", "film.webp"});
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err,
+                 "'film.webp' is a film: say of which frames, by frames -> 48 in the "
+                 "Settings of 'ball.crt', or such as --frames 1-48"));
+  CHECK_FALSE(folder.has("film.webp"));
+}
+
 TEST_CASE_FIXTURE(Fixture, "a .gif shows its frames again and again, 50 a second at most") {
   const std::string film = film_by_words("film.GIF", "60");
   CHECK(contains(film, "-framerate 50 "));

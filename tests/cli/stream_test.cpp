@@ -130,7 +130,10 @@ TEST_CASE_FIXTURE(Fixture, "what makes no sense together is refused before anyth
       {"ball.crt", "deep/ball.crt", "--checkpoint", "state"},
       {"ball.crt", "-o", "-", "--stats", "-"},
       {"ball.crt", "-o", "-", "--frames", "1-2"},
-      {"ball.crt", "-o", "film.gif"},
+      {"ball.crt", "-o", "-", "--film"},
+      {"ball.crt", "-o", "picture.png", "--film"},
+      {"ball.crt", "--film", "--checkpoint", "state"},
+      {"ball.crt", "-o", "film.gif", "--time", "3"},
       {"ball.crt", "-o", "film.gif", "--frames", "1-2", "--aov", "depth"},
       {"ball.crt", "--keep-frames", "frames"},
   };

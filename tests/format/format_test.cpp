@@ -113,13 +113,15 @@ TEST_CASE("formatting leaves the tree and the comments of every example as they 
   }
 }
 
-TEST_CASE("formatting a good script of the corpus twice gives what once gives") {
+TEST_CASE(
+    "formatting a good script of the corpus keeps its tree, and twice gives what once gives") {
   const std::vector<fs::path> paths = scripts_in("tests/lang/corpus/good");
   REQUIRE(paths.size() > 5);
   for (const fs::path& path : paths) {
     CAPTURE(path.string());
     const auto once = crt::format::format_script(read(path), "test.crt");
     REQUIRE(once.text.has_value());
+    CHECK(shape_of(*once.text) == shape_of(read(path)));
     CHECK(formatted(*once.text) == *once.text);
   }
 }
@@ -143,6 +145,25 @@ TEST_CASE("blanks between tokens are one or none, as the tokens want it") {
         "e = a <scale 2, rotate v> - b <translate (v)>\n");
   CHECK(formatted("m=Macro(a,b){}") == "m = Macro (a, b) { }\n");
   CHECK(formatted("x = g <scale [1>2][0]>") == "x = g <scale [1 > 2][0]>\n");
+}
+
+TEST_CASE("slices, parts, dictionaries and values in strings have their blanks") {
+  CHECK(formatted("a=[i*2 for i in range( 9 )if i%2==0]") ==
+        "a = [i * 2 for i in range(9) if i % 2 == 0]\n");
+  CHECK(formatted("b=a[ 1 : ]+a[:-2]+a[i+1 : j]+a[ : ]") ==
+        "b = a[1:] + a[:-2] + a[i + 1:j] + a[:]\n");
+  CHECK(formatted("c=a?b[x?1:2 : 3]:v.x") == "c = a ? b[x ? 1 : 2:3] : v.x\n");
+  CHECK(formatted("d={a->1,\"b c\"->{}}") == "d = { a -> 1, \"b c\" -> { } }\n");
+  CHECK(formatted("[a,b]=[b ,a]") == "[a, b] = [b, a]\n");
+  CHECK(formatted("e=\"x \\{ a+1 } y \\{\"z\"}\"+f( 1,b->2 )") ==
+        "e = \"x \\{a + 1} y \\{\"z\"}\" + f(1, b -> 2)\n");
+  CHECK(formatted("m=Macro(a,b->-1){break}") == "m = Macro (a, b -> -1) { break }\n");
+  CHECK(formatted("import\"x\"as y\nfor(a,b in c){continue}") ==
+        "import \"x\" as y\nfor (a, b in c) { continue }\n");
+  CHECK(formatted(
+            "a = [\nball <translate v>\nfor v in list\nif v.x > 0\n]\nd = {\na -> 1\nb -> 2\n}") ==
+        "a = [\n    ball <translate v>\n    for v in list\n    if v.x > 0\n]\nd = {\n    a -> 1\n"
+        "    b -> 2\n}\n");
 }
 
 TEST_CASE("a line that continues an expression is indented once more") {

@@ -94,6 +94,44 @@ TEST_CASE("work within a step is paid for in steps") {
   CHECK(ends_in_limit("l = range(100000)\nfor (i in l) { }", with({.steps = 50'000}), "'for'"));
 }
 
+TEST_CASE("comprehensions, slices and what calls macros are paid for in steps") {
+  const ScriptOptions options = with({.steps = 100'000});
+  const std::string list = "l = range(10000)\n";
+  CHECK(ends_in_limit("x = [i for i in range(1000) for j in range(1000)]", options,
+                      "'for' at test.crt:1:29"));
+  CHECK(ends_in_limit("x = [i for i in range(1000000) if false]", options, "'for'"));
+  CHECK(ends_in_limit(list + "while (true) { m = l[1:] }", options, "steps"));
+  CHECK(ends_in_limit("s = \"x\" * 1000000\nwhile (true) { t2 = s[0:1] }", options, "steps"));
+  CHECK(ends_in_limit(list + "while (true) { m = map(l, sqrt) }", options, "'map'"));
+  CHECK(ends_in_limit("x = filter(range(1000000), Macro (i) { return false })", options,
+                      "'filter' at test.crt:1:5"));
+  CHECK(ends_in_limit("x = sort(range(1000000), Macro (i) { return -i })", options, "'sort'"));
+  CHECK(ends_in_limit(list + "while (true) { x = sort(l) }", options, "steps"));
+  CHECK(ends_in_limit("l = [\"x\" * 100000, \"x\" * 100000]\nwhile (true) { x = sort(l) }", options,
+                      "steps"));
+  CHECK(ends_in_limit(list + "while (true) { x = zip(l, l) }", options, "'zip'"));
+  CHECK(ends_in_limit(list + "while (true) { x = sum(l) }", options, "steps"));
+  CHECK(ends_in_limit("l = [\"x\" for i in range(10000)]\nx = sum(l + l)", options, "steps"));
+  CHECK(ends_in_limit("s = \"x\" * 1000000\nwhile (true) { x = has({}, s) }", options, "steps"));
+  CHECK(ends_in_limit("s = \"x\" * 1000000\nwhile (true) { x = \"\\{s}\" }", options, "steps"));
+  CHECK(ends_in_limit("d = { a -> 1 }\nwhile (true) { x = d + d }", options, "'while'"));
+  // Dictionaries that share their parts are as large as a tree of them.
+  const std::string tree = "d = { a -> 1 }\nfor (i in range(60)) { d = { a -> d, b -> d } }\n";
+  CHECK(ends_in_limit(tree + "e = { a -> d.a, b -> d.b }\nx = d == e", options, "steps"));
+  CHECK(ends_in_limit(tree + "print(d)", {}, "a string of more than"));
+}
+
+TEST_CASE("finding the parameters that arguments name is paid for in steps") {
+  std::string parameters = "a0";
+  std::string arguments = "a0 -> 0";
+  for (int i = 1; i < 5000; ++i) {
+    parameters += ", a" + std::to_string(i);
+    arguments += ", a" + std::to_string(i) + " -> 0";
+  }
+  const std::string macro = "f = Macro (" + parameters + ") { return a7 }\n";
+  CHECK(ends_in_limit(macro + "x = f(" + arguments + ")", with({.steps = 100'000}), "steps"));
+}
+
 TEST_CASE("macros call one another to a depth") {
   const std::string recursion = "f = Macro (n) { if (n > 0) { f(n - 1) } }\n";
   CHECK(run_statements(recursion + "f(99)", with({.call_depth = 100})).ok());
@@ -136,11 +174,18 @@ TEST_CASE("a thread with 256 kB of stack runs scripts, and ends those that nest 
                                    "x = f(0)";
   const std::string in_loops =
       "f = Macro (n) { for (i in [1]) { while (true) { if (true) { x = [f(n + 1)] } } } }\nf(0)";
+  const std::string in_comprehensions =
+      "f = Macro (n) { return [f(n + 1) for i in [1] if true] }\n"
+      "x = f(0)";
+  const std::string in_builtins = "f = Macro (n) { return sort(map([n + 1], f), f) }\nx = f(0)";
+  const std::string in_defaults = "f = Macro (n, m -> f(n + 1)) { return \"\\{m}\" }\nx = f(0)";
+  const std::string in_parts = "f = Macro (n) { [a, b] = { c -> f(n + 1) }.c[0:1] }\nx = f(0)";
   const std::string in_brackets =
       "f = Macro (n) { x = " + repeated("[", 90) + "f(n + 1)" + repeated("]", 90) + " }\nf(0)";
   on_small_stack(stack_bytes, [&] {
     for (const std::string& endless :
-         {nested_calls, in_objects, in_modifiers, in_loops, in_brackets}) {
+         {nested_calls, in_objects, in_modifiers, in_loops, in_comprehensions, in_builtins,
+          in_defaults, in_parts, in_brackets}) {
       CAPTURE(endless);
       CHECK(run_statements(endless, with({.call_depth = 1000})).failed_with(ErrorCode::limit));
     }
@@ -150,6 +195,12 @@ TEST_CASE("a thread with 256 kB of stack runs scripts, and ends those that nest 
     CHECK(run_statements("x = " + repeated("[", 95) + "1" + repeated("]", 95) +
                          "\nprint(x, x == x)\ny = str(x)")
               .ok());
+    CHECK(run_statements("x = " + repeated("{ a -> ", 95) + "1" + repeated("}", 95) +
+                         "\nprint(x, x == x)\ny = \"\\{x}\"")
+              .ok());
+    CHECK(run_statements("x = " + repeated("\"\\{", 95) + "1" + repeated("}\"", 95)).ok());
+    CHECK_FALSE(run_statements("x = " + repeated("\"\\{", 300) + "1" + repeated("}\"", 300)).ok());
+    CHECK(run_statements("x = [1" + repeated(" for i in [1]", 190) + "]").ok());
     CHECK(run_statements(repeated("if (true) { ", 190) + "x = 1" + repeated("}", 190)).ok());
     CHECK_FALSE(run_statements("x = " + repeated("(", 300) + "1" + repeated(")", 300)).ok());
     CHECK_FALSE(run_statements("x = " + repeated("(", 190) + "y" + repeated(")", 190)).ok());
@@ -208,6 +259,9 @@ TEST_CASE("long chains are worked off and freed without deep recursion") {
     // entities.
     CHECK(run_statements("m = 0\nfor (i in range(100000)) { last = m\n m = Macro () { last } }")
               .ok());
+    CHECK(run_statements("m = {}\nfor (i in range(100000)) { last = m\n"
+                         "m = { a -> Macro () { return last } } }")
+              .ok());
     CHECK(run_statements(ball + "sum = ball\nfor (i in range(100000)) { sum = sum + ball }").ok());
     CHECK(run_statements(ball + "sum = ball\nfor (i in range(100000)) { sum = sum - ball }").ok());
     CHECK(run_statements(ball +
@@ -229,12 +283,25 @@ TEST_CASE("strings and lists have a greatest size") {
   CHECK(ends_in_limit("x = range(-9223372036854775807, 9223372036854775807)", {},
                       "a list of more than"));
   CHECK(ends_in_limit("x = range(0, 1, 1e-300)", {}, "a list of more than"));
+  CHECK(ends_in_limit("s = \"x\"\nwhile (true) { s = \"\\{s}\\{s}\" }", {}, "in the loop 'while'"));
+  CHECK(run_statements("x = [1 for i in range(10)]", with({.list_length = 10})).ok());
+  CHECK(ends_in_limit("x = [1 for i in range(4) for j in range(4)]", with({.list_length = 10}),
+                      "a list of more than 10 items"));
+  CHECK(ends_in_limit("d = {}\nwhile (true) { d = { a -> d } }", {}, "nested more than 100 deep"));
+  CHECK(
+      ends_in_limit("d = {}\nwhile (true) { d = [{ a -> d }] }", {}, "nested more than 100 deep"));
 }
 
 TEST_CASE("strings and lists share a memory, and give it back") {
   const ScriptOptions options = with({.memory_bytes = 1'000'000});
   CHECK(ends_in_limit("l = []\nwhile (true) { l = l + [\"x\" * 1000] }", options,
                       "need more than 1000000 bytes"));
+  CHECK(ends_in_limit("x = [\"x\" * 1000 for i in range(10000)]", options,
+                      "need more than 1000000 bytes"));
+  CHECK(ends_in_limit("l = []\nwhile (true) { l = l + [{ a -> 1, b -> 2 }] }", options,
+                      "need more than 1000000 bytes"));
+  CHECK(run_statements("for (i in range(5000)) { d = { a -> [i for j in range(9)] } }", options)
+            .ok());
   CHECK(run_statements("for (i in range(5000)) { s = \"x\" * 10000 }", options).ok());
   CHECK(run_statements("for (i in range(1000)) { l = range(1000) }", options).ok());
   CHECK(ends_in_limit("for (i in range(100000)) { m = Macro () { } }", options,

@@ -40,7 +40,7 @@ TEST_CASE("all settings arrive") {
     lightsamples -> 9 indirect -> 6 cutoff -> "black"
     targeterror -> 0.25 timebudget -> 1.5 minsamples -> 32 maxsamples -> 64
     filter -> "blackmanharris" filterwidth -> 2.5 showclip -> true seed -> 77
-    precision -> "exact" projection -> "cylindrical" unit -> "mm"
+    precision -> "exact" projection -> "cylindrical" unit -> "mm" frames -> 48
   } Scene { })");
   const crt::Settings& settings = scene.settings;
   CHECK(settings.title == "T");
@@ -72,6 +72,7 @@ TEST_CASE("all settings arrive") {
   CHECK(settings.seed == 77);
   CHECK(settings.precision == crt::Precision::exact);
   CHECK(settings.unit == crt::Unit::mm);
+  CHECK(settings.frames == 48);
   CHECK(scene.camera.projection == crt::Projection::cylindrical);
 }
 

@@ -36,23 +36,36 @@ RULES = [(re.compile(rule.get("match") or rule["begin"]), rule)
          for rule in rules(GRAMMAR["patterns"])]
 
 
-def end_of_string(line, begin):
-    end = re.compile(r'(?:\\.|[^"\\])*("|$)').match(line, begin)
-    return end.end() if end else len(line)
+VALUE, = [rule["begin"] for rule in GRAMMAR["repository"]["string"]["patterns"]
+          if "begin" in rule]
+PIECE = re.compile(rf'(?:(?!{VALUE})\\.|[^"\\])*("|{VALUE}|$)')
+BRACE = re.compile("[{}]")
 
 
 def scopes_of(line):
     """Returns (begin, end, scope) of all pieces of a line, as an editor finds them."""
     place = 0
+    open_braces = []  # within each value in a string
     while place < len(line):
+        brace = BRACE.search(line, place) if open_braces else None
         found = [(match.start(), i, match, rule) for i, (regex, rule) in enumerate(RULES)
                  if (match := regex.search(line, place))]
-        if not found:
+        _, _, match, rule = min(found, key=lambda f: f[:2], default=(0, 0, None, None))
+        if brace and not (match and match.start() < brace.start()):
+            place = brace.end()
+            open_braces[-1] += 1 if brace[0] == "{" else -1
+            if open_braces[-1] > 0:
+                continue
+            open_braces.pop()
+            match, rule = brace, GRAMMAR["repository"]["string"]
+        if not match:
             return
-        _, _, match, rule = min(found, key=lambda f: f[:2])
         place = match.end()
         if "begin" in rule:
-            place = end_of_string(line, place)
+            piece = PIECE.match(line, place)
+            place = piece.end()
+            if piece[1].startswith("\\"):
+                open_braces.append(1)
             yield match.start(), place, rule["name"]
         elif "captures" in rule:
             for number, capture in rule["captures"].items():
@@ -101,7 +114,11 @@ class Grammar(ServerTest):
     def test_what_is_easily_mistaken(self):
         for text in ('x = "a -- \\" b" -- "c"\n', "a = 1.5e-3 + .5 + 2.\n",
                      "scale = Macro () { }\n", "a = Noise { scale -> 2 in -> 3 }\n",
-                     "b = a <scale 2, rotate a>\n", "x1 = x1-1\n", "pi = t\n"):
+                     "b = a <scale 2, rotate a>\n", "x1 = x1-1\n", "pi = t\n",
+                     'a = "x \\{str({ b -> "}" }.b)} y \\{"\\{1}"} z" + "w"\n',
+                     "a = vec3(1, 2, 3).x + b.in[1:].scale\n", "a = 45deg + 1.5rad\n",
+                     'import "a" as b\nas = 1\n', "for (a, b in c) { break continue }\n",
+                     'a = { in -> 1, "b c" -> { } }\n'):
             self.check(text)
 
     def test_the_files_name_one_another(self):

@@ -252,13 +252,16 @@ class View(ViewedFolder):
         self.client.set_text(moving)
         scene = self.client.wait("scene")
         self.assertTrue(scene["readsTime"])
+        self.assertEqual(scene["frames"], 0)
         start, _ = self.whole()
         self.assertEqual(start, self.picture)
         self.assertNotEqual(self.show(t=5), start)
         self.assertAlmostEqual(self.client.pick(48, 32)["position"][0], 0, delta=0.1)
         self.assertEqual(self.show(t=0), start)
-        self.client.set_text(SCENE)
-        self.assertFalse(self.client.wait("scene")["readsTime"])
+        self.client.set_text(SCENE.replace("Settings {", "Settings { frames -> 48"))
+        scene = self.client.wait("scene")
+        self.assertFalse(scene["readsTime"])
+        self.assertEqual(scene["frames"], 48)
 
     def test_boxes_hold_the_entities_and_may_have_no_end(self):
         self.client.set_text(

@@ -208,7 +208,7 @@ class Studio {
         this.view.setCamera(message.camera);
         if (!message.isOverridden) this.camera = null;
         this.statistics.setScene(message);
-        this.controls.setReadsTime(message.readsTime);
+        this.controls.setTime(message.readsTime, message.frames);
         void this.drawBounds();
         this.measures.update();
         this.console.setWarnings(message.warnings);

@@ -100,6 +100,8 @@ export interface Scene {
   camera: Camera;
   isOverridden: boolean;
   readsTime: boolean;
+  /** Is how many frames the script says that there are, or 0. */
+  frames: number;
   /** Is what a scene unit is: m, cm, mm or in. */
   unit: string;
 }

@@ -21,6 +21,7 @@ export class TimeControls {
   private timer: ReturnType<typeof setInterval> | undefined;
   private shownAtLast = -1;
   private t = 0;
+  private frames = 0;
 
   /** `countShown` counts the pictures that were shown: a frame stays until one of it has been. */
   constructor(private readonly take: (t: number) => void,
@@ -37,6 +38,13 @@ export class TimeControls {
   setUsed(isUsed: boolean): void {
     this.element.hidden = !isUsed;
     if (!isUsed) this.stop();
+  }
+
+  /** Takes how many frames the script says that there are. With 0 the last one stays as it is. */
+  setFrames(frames: number): void {
+    if (frames === this.frames) return;
+    this.frames = frames;
+    this.last.value = this.slider.max = String(frames > 0 ? frames - 1 : usualLast);
   }
 
   reset(): void {

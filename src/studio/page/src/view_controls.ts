@@ -116,8 +116,9 @@ export class ViewControls {
       `${short(pick.distance)} away, at ${pick.position.map(short).join(', ')}`;
   }
 
-  setReadsTime(readsTime: boolean): void {
+  setTime(readsTime: boolean, frames: number): void {
     this.time.setUsed(readsTime);
+    this.time.setFrames(frames);
   }
 
   /** Shows the mode and the exposure, and the controls that undo what is in effect. */

@@ -196,6 +196,9 @@ withPage('time has a slider where the script reads t, and plays', async ({page})
   await slider.fill('0');
   // A frame that was under way may still be shown before.
   await showsBytes(page, start);
+  assert.equal(await slider.getAttribute('max'), '100');
+  await rendered(page, () => type(page, 'Settings {', 'Settings { frames -> 48 '));
+  assert.equal(await slider.getAttribute('max'), '47');
 });
 
 withPage('a kept picture is compared with later ones', async ({page}) => {

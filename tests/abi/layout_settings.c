@@ -1,0 +1,42 @@
+// This is the layout of what crt.h declares of settings: a part of layout.c.
+#include "layout.h"
+
+SIZE(crt_settings, 200);
+AT(crt_settings, struct_size, 0);
+AT(crt_settings, width, 4);
+AT(crt_settings, height, 8);
+AT(crt_settings, supersampling, 12);
+AT(crt_settings, dof_samples, 16);
+AT(crt_settings, recursion_depth, 20);
+AT(crt_settings, gamma, 24);
+AT(crt_settings, min_weight, 32);
+AT(crt_settings, falloff_model, 40);
+AT(crt_settings, show_clip, 44);
+AT(crt_settings, seed, 48);
+AT(crt_settings, title, 56);
+AT(crt_settings, author, 64);
+AT(crt_settings, date, 72);
+AT(crt_settings, notes, 80);
+AT(crt_settings, precision, 88);
+AT(crt_settings, reserved, 92);
+AT(crt_settings, target_error, 96);
+AT(crt_settings, time_budget, 104);
+AT(crt_settings, filter_width, 112);
+AT(crt_settings, min_samples, 120);
+AT(crt_settings, max_samples, 124);
+AT(crt_settings, filter, 128);
+AT(crt_settings, reserved_2, 132);
+AT(crt_settings, compat, 136);
+AT(crt_settings, reserved_3, 140);
+AT(crt_settings, ambient_model, 144);
+AT(crt_settings, no_head_light, 148);
+AT(crt_settings, indirect, 152);
+AT(crt_settings, light_samples, 156);
+AT(crt_settings, tone_map, 160);
+AT(crt_settings, cutoff, 164);
+AT(crt_settings, exposure, 168);
+AT(crt_settings, clamp, 176);
+AT(crt_settings, denoise, 184);
+AT(crt_settings, unit, 188);
+AT(crt_settings, frames, 192);
+AT(crt_settings, reserved_4, 196);
