@@ -54,7 +54,8 @@ class Column {
     return part;
   }
 
-  /// Encloses the area of the heights, of what is surface of the solid.
+  /// Encloses the area of the heights, of what is surface of the solid. It has no upper end where
+  /// one may be too steep.
   Interval area() const {
     Interval sum{0, 0};
     const Interval scale = frame_.side(frame_.a) * frame_.side(frame_.b) * Interval::of(0.25);
@@ -62,6 +63,7 @@ class Column {
       if (!look_.faces[height.face].is_surface) continue;
       const PatchSeries slant = slant_of(solid_, look_, frame_, height);
       const Interval range = range_of(slant);
+      if (!std::isfinite(range.magnitude())) return {0, infinity};
       double seen = 0;
       double size = 0;
       for (const SquarePiece& piece : pieces_) {
