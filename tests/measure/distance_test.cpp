@@ -181,24 +181,6 @@ TEST_CASE("pairs that overlap are found, with what they have in common") {
   CHECK(std::abs(overlaps[1].volume.middle() - 1) < 1e-9);
 }
 
-TEST_CASE("a point that is said to be in two solids is in both") {
-  int overlapping = 0;
-  for (std::uint32_t seed = 0; seed < 60; ++seed) {
-    CAPTURE(seed);
-    const Entity room = Box{.corner_a = Vec3(-4), .corner_b = Vec3(4)};
-    const Entity a = SolidMaker(2 * seed).tree(3).entity() ^ room;
-    const Entity b = (SolidMaker(2 * seed + 1).tree(3).entity() ^ room)
-                         .transformed(rotate_degrees({20, 30, 40}));
-    if (volume(a).upper == 0 || volume(b).upper == 0) continue;
-    const Clearance found = clearance(a, b, {.relative_width = 1e-2, .seconds = 0.1});
-    if (!found.overlap) continue;
-    ++overlapping;
-    CHECK(contains(a, found.on_a) != PointSide::outside);
-    CHECK(contains(b, found.on_a) != PointSide::outside);
-  }
-  CHECK(overlapping > 10);
-}
-
 TEST_CASE("a pair of points is known even when no time is left") {
   const Entity ring = Torus{.center = {9, 0, 0}, .radius = 2, .thickness = 0.01};
   const Clearance found = clearance(Torus{.radius = 2, .thickness = 0.01}, ring, {.seconds = 1e-9});

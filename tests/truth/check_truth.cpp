@@ -19,10 +19,10 @@ struct Kind {
   std::uint64_t few;
 };
 
-constexpr Kind kinds[] = {{"forms", check_form, 300},
-                          {"trees", check_tree, 60},
-                          {"points", check_points, 100},
-                          {"pairs", check_pair, 60}};
+constexpr Kind kinds[] = {{"forms", check_form, 150},
+                          {"trees", check_tree, 20},
+                          {"points", check_points, 60},
+                          {"pairs", check_pair, 110}};
 
 int run(const Kind& kind, std::uint64_t count, std::uint64_t first, bool tells) {
   Account account(std::string(kind.name), count, tells);
