@@ -112,6 +112,19 @@ TEST_CASE("areas are those of closed forms") {
         2 * pi * steep.radius * (glm::distance(steep.from, steep.to) + 2 * steep.radius), 1e-2);
 }
 
+TEST_CASE("where two slopes cross at a step, the step has the area of both sides") {
+  const Entity room = Box{};
+  const Entity left = Plane{.normal = {1, 0, 0}};
+  const auto below = [](double rise) {
+    return Entity(Plane{.normal = {0, 1, -rise}, .position = {0, 0, 0.3}});
+  };
+  const Entity slopes = room ^ ((below(0.3) ^ left) + (below(-0.3) - left));
+  const double sides = 4 + 4 + 4;
+  const double tops = 4 * std::sqrt(1 + 0.3 * 0.3);
+  const double step = 0.3 * (0.7 * 0.7 + 1.3 * 1.3);
+  check(surface_area(slopes, {.relative_width = 1e-6}), sides + tops + step, 1e-6);
+}
+
 TEST_CASE("a map that is not even changes a volume by its determinant") {
   Transform map;
   map.row_x = {1, 0.5, -0.25};
