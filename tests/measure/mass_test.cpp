@@ -114,15 +114,18 @@ TEST_CASE("areas are those of closed forms") {
 
 TEST_CASE("where two slopes cross at a step, the step has the area of both sides") {
   const Entity room = Box{};
-  const Entity left = Plane{.normal = {1, 0, 0}};
+  const Entity front = Plane{.normal = {0.6, 0, 1}};
   const auto below = [](double rise) {
-    return Entity(Plane{.normal = {0, 1, -rise}, .position = {0, 0, 0.3}});
+    return Entity(Plane{.normal = {-rise, 1, 0}, .position = {0.3, 0, 0}});
   };
-  const Entity slopes = room ^ ((below(0.3) ^ left) + (below(-0.3) - left));
-  const double sides = 4 + 4 + 4;
+  const Entity slopes = room ^ ((below(0.3) ^ front) + (below(-0.3) - front));
+  const double bottom = 4;
+  const double front_and_back = 1.82 + 2.18;
+  const double ends = (1.6 * 0.61 + 0.4 * 1.39) + (0.4 * 1.21 + 1.6 * 0.79);
   const double tops = 4 * std::sqrt(1 + 0.3 * 0.3);
-  const double step = 0.3 * (0.7 * 0.7 + 1.3 * 1.3);
-  check(surface_area(slopes, {.relative_width = 1e-6}), sides + tops + step, 1e-6);
+  const double step = std::sqrt(1 + 0.6 * 0.6) * 0.3 * (0.7 * 0.7 + 1.3 * 1.3);
+  check(surface_area(slopes, {.relative_width = 1e-6}),
+        bottom + front_and_back + ends + tops + step, 1e-6);
 }
 
 TEST_CASE("a map that is not even changes a volume by its determinant") {
