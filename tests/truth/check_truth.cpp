@@ -1,7 +1,7 @@
 // Checks that the truth is never outside of an answer, of as many random solids as is asked for:
 //   check_truth [forms|trees|points|pairs [COUNT [FIRST]]]
 // Without arguments it checks a few of each. With some it tells its progress on standard error.
-// CONTRIBUTING.md says more.
+// docs/design/numerics.md says more.
 #include <cstdlib>
 #include <exception>
 #include <string_view>

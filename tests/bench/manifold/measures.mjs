@@ -1,14 +1,17 @@
 // This program measures solids by Manifold: measures.mjs FOLDER < QUESTIONS > ANSWERS
 // FOLDER is where manifold-3d is installed. Each line of QUESTIONS is one in JSON:
-//   {"solids": [{"joined": [SHAPE, ...], "cut": [SHAPE, ...]}, ...], "search": LENGTH, "rounds": N}
+//   {"solids": [{"joined": [SHAPE, ...], "cut": [SHAPE, ...]}, ...], "search": LENGTH}
 // A SHAPE has a matrix, column after column, and is a "cube" from 0 to 1, a "sphere" of radius 1
 // with `sides`, or a "turned" `profile`. ANSWERS has a line for each: the volume of one solid, or
-// how near two are within a length, the triangles, and the seconds of the fastest round.
+// how near two are within a length, the triangles, and the seconds of processors, of the fastest
+// of some rounds.
 
 import {createInterface} from 'node:readline';
-import {performance} from 'node:perf_hooks';
 import {resolve} from 'node:path';
 import {pathToFileURL} from 'node:url';
+
+const ROUNDS = 3; // fewer if they take long
+const MOST_SECONDS = 10;
 
 const place = resolve(process.argv[2], 'node_modules/manifold-3d/manifold.js');
 const wasm = await (await import(pathToFileURL(place))).default();
@@ -37,14 +40,16 @@ function solid({joined: shapes, cut}, made) {
   return made.at(-1);
 }
 
-function answer({solids, search, rounds}) {
-  let last, seconds = Infinity;
-  for (let round = 0; round < rounds; ++round) {
+function answer({solids, search}) {
+  let last, seconds = Infinity, all = 0;
+  for (let round = 0; round < ROUNDS && all < MOST_SECONDS; ++round) {
     const made = [];
-    const start = performance.now();
+    const start = process.cpuUsage();
     const [first, second] = solids.map(shapes => solid(shapes, made));
     const value = second ? first.minGap(second, search) : first.volume();
-    seconds = Math.min(seconds, (performance.now() - start) / 1000);
+    const {user, system} = process.cpuUsage(start);
+    seconds = Math.min(seconds, (user + system) / 1e6);
+    all += (user + system) / 1e6;
     last = {value, triangles: first.numTri() + (second ? second.numTri() : 0)};
     for (const one of made) one.delete();
   }
