@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include "crt/measure.hpp"
 #include "run.hpp"
 
 namespace {
@@ -77,6 +78,22 @@ TEST_CASE("the library is found without a file, and no file takes its place") {
   CHECK_FALSE(crt::test::run("import \"crt/no\" Scene { }", options).ok());
   CHECK_FALSE(crt::test::run("import \"crt/../../etc/passwd\" Scene { }", options).ok());
   CHECK(asked == 0);
+}
+
+TEST_CASE("materials of the library weigh what they are of, also when they are varied") {
+  const auto density_of = [](const std::string& material) {
+    const crt::test::Run run = crt::test::run(
+        "import \"crt/metals\" import \"crt/glass\" import \"crt/woods\" "
+        "import \"crt/materials\" Scene { Sphere { } <material " +
+        material + "> }");
+    REQUIRE(run.ok());
+    return crt::density(run.result.scene->entities[0]);
+  };
+  CHECK(density_of("steel") == 7850);
+  CHECK(density_of("glass") == 2500);
+  CHECK(density_of("oak") == 762);
+  CHECK(density_of("satinGold { color -> rgb(1, 0, 0) }") == density_of("gold"));
+  CHECK(density_of("chrome") == 0);
 }
 
 TEST_CASE("the library counts as text of the script") {

@@ -181,6 +181,14 @@ TEST_CASE("pairs that overlap are found, with what they have in common") {
   CHECK(std::abs(overlaps[1].volume.middle() - 1) < 1e-9);
 }
 
+TEST_CASE("a pair of points is known even when no time is left") {
+  const Entity ring = Torus{.center = {9, 0, 0}, .radius = 2, .thickness = 0.01};
+  const Clearance found = clearance(Torus{.radius = 2, .thickness = 0.01}, ring, {.seconds = 1e-9});
+  CHECK(found.distance.lower <= 5 - 0.02);
+  CHECK(found.distance.upper >= 5 - 0.02);
+  CHECK(std::abs(glm::distance(found.on_a, found.on_b) - found.distance.upper) < 1e-9);
+}
+
 TEST_CASE("nothing is at no distance from anything") {
   CHECK_THROWS_AS(clearance(empty_entity(), Sphere{}), Error);
   CHECK_THROWS_AS(clearance(Sphere{}, Plane{}), Error);

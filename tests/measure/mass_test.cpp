@@ -125,6 +125,27 @@ TEST_CASE("areas are those of closed forms") {
   }
   check(surface_area(Cylinder{}, {.relative_width = 1e-4}), 4 * pi, 1e-4);
   check(surface_area(turned_flange(), {.relative_width = 1e-4}), area_of_flange, 1e-4);
+  // In a large cell of this one the surface is too steep for a series of how steep it is.
+  const Capsule steep{
+      .from = {-0.095, 3.561, 0.3562}, .to = {-1.6251, 3.3, -0.9049}, .radius = 0.3529};
+  check(surface_area(steep, {.relative_width = 1e-2}),
+        2 * pi * steep.radius * (glm::distance(steep.from, steep.to) + 2 * steep.radius), 1e-2);
+}
+
+TEST_CASE("where two slopes cross at a step, the step has the area of both sides") {
+  const Entity room = Box{};
+  const Entity front = Plane{.normal = {0.6, 0, 1}};
+  const auto below = [](double rise) {
+    return Entity(Plane{.normal = {-rise, 1, 0}, .position = {0.3, 0, 0}});
+  };
+  const Entity slopes = room ^ ((below(0.3) ^ front) + (below(-0.3) - front));
+  const double bottom = 4;
+  const double front_and_back = 1.82 + 2.18;
+  const double ends = (1.6 * 0.61 + 0.4 * 1.39) + (0.4 * 1.21 + 1.6 * 0.79);
+  const double tops = 4 * std::sqrt(1 + 0.3 * 0.3);
+  const double step = std::sqrt(1 + 0.6 * 0.6) * 0.3 * (0.7 * 0.7 + 1.3 * 1.3);
+  check(surface_area(slopes, {.relative_width = 1e-6}),
+        bottom + front_and_back + ends + tops + step, 1e-6);
 }
 
 TEST_CASE("a map that is not even changes a volume by its determinant") {

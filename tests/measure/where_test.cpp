@@ -1,10 +1,14 @@
 // Where solids are: whether points are in them, and how far they reach.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "crt/error.hpp"
+#include "crt/field.hpp"
+#include "crt/implicit_shapes.hpp"
 #include "crt/measure.hpp"
 #include "crt/primitives.hpp"
 #include "crt/transform.hpp"
@@ -71,6 +75,37 @@ TEST_CASE("points are in, out or on, by the definition of solids whose faces coi
   }
   CHECK(on > 1000);
   CHECK(touching < 20);
+}
+
+TEST_CASE("points of ends, sides, edges and corners are on a surface") {
+  const Contour corners = {{0, 0}, {2, 0}, {2, 1}, {0, 2}};
+  const auto profile = make_profile(std::array{corners});
+  const Entity prism = Extrusion{.profile = profile, .from = -1, .to = 1};
+  const Entity wedge = Revolution{.profile = profile, .angle = std::numbers::pi / 2};
+  const Entity field = HeightField{.heights = make_height_grid({0, 1, 0.5, 1}, 2, 2),
+                                   .corner_a = {0, 0, 0},
+                                   .corner_b = {2, 2, 2}};
+  const Entity cut_ball = Implicit{
+      .field = Field::x() * Field::x() + Field::y() * Field::y() + Field::z() * Field::z() - 2.0,
+      .lower = Vec3(-1),
+      .upper = Vec3(1)};
+  const Entity pyramid =
+      Mesh{.triangles = mesh_triangles(
+               std::array<Vec3, 4>{Vec3(0), Vec3(2, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 2)},
+               std::array<TriangleIndices, 4>{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}})};
+  const auto check = [](const Entity& solid, std::initializer_list<Vec3> points) {
+    for (const Vec3& point : points) {
+      CAPTURE(point.x);
+      CAPTURE(point.y);
+      CAPTURE(point.z);
+      CHECK(contains(solid, point) == PointSide::on);
+    }
+  };
+  check(prism, {{1, 0.5, -1}, {1, 0.5, 1}, {0, 1, 0}, {1, 0, 0}, {2, 0.5, 0.5}, {2, 1, 1}});
+  check(wedge, {{1, 0, 0}, {1, 0.5, 0}, {2, 0.5, 0}, {0, 0.5, 1}});
+  check(field, {{1, 0, 1}, {2, 0.5, 1}, {1, 0.25, 2}, {0, 0, 0}, {0, 0, 1}, {2, 0, 2}, {2, 2, 2}});
+  check(cut_ball, {{1, 0, 0}, {0, -1, 0.5}, {1, 1, 0}});
+  check(pyramid, {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {0.5, 0.5, 0}, {1, 1, 0}, {0, 0, 2}});
 }
 
 TEST_CASE("one point is asked like many, and must be finite") {

@@ -43,10 +43,17 @@ void NearFaces::keep_within(std::uint32_t face) {
   faces.push_back(face);
 }
 
+bool is_one_point(const PointOf<Interval>& box) {
+  return std::ranges::all_of(box, [](const Interval& side) { return side.width() == 0; });
+}
+
 bool may_overlap(const PointOf<Interval>& box, const Bounds& bounds) {
+  const bool is_point = is_one_point(box);
+  const auto is_below = [&](double a, double b) { return is_point ? a < b : a <= b; };
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<int>(i);
-    if (box[i].hi <= bounds.lower[axis] || box[i].lo >= bounds.upper[axis]) return false;
+    if (is_below(box[i].hi, bounds.lower[axis]) || is_below(bounds.upper[axis], box[i].lo))
+      return false;
   }
   return true;
 }

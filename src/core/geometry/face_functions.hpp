@@ -145,7 +145,9 @@ std::unique_ptr<const FaceFunctions> face_functions_of(const Solid& solid) {
   return std::make_unique<const FaceFunctionsOf<Solid>>(solid);
 }
 
-/// Returns whether a box may have more in common with bounds than a part of its surface.
+bool is_one_point(const PointOf<Interval>& box);
+/// Returns whether a box may have more in common with bounds than a part of its surface, or is a
+/// point that may be in them.
 bool may_overlap(const PointOf<Interval>& box, const Bounds& bounds);
 
 /// Returns a point of which the coordinates are known.

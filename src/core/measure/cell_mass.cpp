@@ -75,6 +75,11 @@ double most_area(const Bounds& box, double max_crossings) {
   return ((x * y + y * z + z * x) * Interval::of(max_crossings)).hi;
 }
 
+double most_area_of_face(const CellSolid& solid, const Bounds& box, const CellFace& face) {
+  const int crossings = solid.functions(face.leaf).max_crossings(face.face);
+  return crossings == 0 ? infinity : most_area(box, crossings);
+}
+
 /// Cuts a cell by planes, one after the other.
 class CutCell {
  public:
@@ -203,10 +208,7 @@ class CutCell {
            seen_area(above, own, face + 1, negative, axis);
   }
 
-  double most_area(const CellFace& face) const {
-    const int crossings = solid_.functions(face.leaf).max_crossings(face.face);
-    return crossings == 0 ? infinity : core::most_area(box_, crossings);
-  }
+  double most_area(const CellFace& face) const { return most_area_of_face(solid_, box_, face); }
 
   const CellSolid& solid_;
   const Bounds& box_;
@@ -252,8 +254,13 @@ CellMass mass_of(const CellSolid& solid, const Bounds& box, const CellLook& look
     if (question.with_area) part.area = {0, most_area(box, look.max_crossings)};
     return result;
   }
-  if (const std::optional<CellMass> column = column_mass(solid, box, look, question))
+  if (std::optional<CellMass> column = column_mass(solid, box, look, question)) {
+    double most = 0;
+    for (const CellFace& face : look.faces) most += most_area_of_face(solid, box, face);
+    Interval& area = column->part.area;
+    area.hi = std::min(area.hi, rounded_up(most));
     return *column;
+  }
   result.part = CutCell(solid, box, look, question).mass();
   return result;
 }

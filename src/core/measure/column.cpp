@@ -57,7 +57,8 @@ class Column {
     return part;
   }
 
-  /// Encloses the area of the heights, of what is surface of the solid.
+  /// Encloses the area of the heights, of what is surface of the solid. It has no upper end where
+  /// one may be too steep.
   Interval area() const {
     Interval sum{0, 0};
     const Interval scale = frame_.side(frame_.a) * frame_.side(frame_.b) * Interval::of(0.25);
@@ -66,6 +67,7 @@ class Column {
       if (!look_.faces[height.face].is_surface) continue;
       const PatchSeries& slant = slants[level_of(height)] = slant_of(solid_, look_, frame_, height);
       const Interval range = range_of(slant);
+      if (!std::isfinite(range.magnitude())) return {0, infinity};
       const LevelSums& sums = level_sums_[level_of(height)];
       const double seen = integral_of(slant, sums.seen);
       const double off = (slant.error + rounding * range.magnitude()) * sums.area +
@@ -93,13 +95,11 @@ class Column {
     double off = wall_off_;
     const double height = rounded_up(frame_.box.upper[frame_.c] - frame_.box.lower[frame_.c]);
     for (const WallSegment& segment : segments_) {
-      if (!look_.faces[faces_.walls[segment.wall].face].is_surface) continue;
+      const ColumnWall& wall = faces_.walls[segment.wall];
+      if (!look_.faces[wall.face].is_surface) continue;
       const double length = length_of(segment);
-      const std::uint32_t bit = 1U << faces_.walls[segment.wall].face;
-      const auto is_surface = [&](std::uint32_t states) {
-        return look_.is_inside(states | bit) != look_.is_inside(states & ~bit);
-      };
-      for_each_level(segment.at(0.5), segment.negative, is_surface,
+      const auto is_surface_of_wall = [&](std::uint32_t m) { return is_surface(wall, m); };
+      for_each_level(segment.at(0.5), segment.negative, is_surface_of_wall,
                      [&](std::size_t level, bool below, bool above) {
                        if (below == above) return;
                        double mean = 0;
@@ -188,17 +188,36 @@ class Column {
       return area_in_doubt(line.function, line.error) * part.size * part.size;
     }
   };
-  /// Returns whether it may matter which of two levels is above the other. It does not of two faces
-  /// of which another says which of them counts.
+  /// Returns whether a wall is surface of the solid where some faces are negative.
+  bool is_surface(const ColumnWall& wall, std::uint32_t negative) const {
+    const std::uint32_t bit = 1U << wall.face;
+    return look_.faces[wall.face].is_surface &&
+           look_.is_inside(negative | bit) != look_.is_inside(negative & ~bit);
+  }
+  /// Returns whether it may matter which of two levels is above the other, in the column or along
+  /// its walls.
   bool may_matter(std::size_t lower, std::size_t upper) const {
     const std::size_t last = levels_.size() - 1;
     if (lower == 0 || upper == last) return lower > 0 || upper < last;
-    const std::uint32_t a = 1U << faces_.heights[lower - 1].face;
-    const std::uint32_t b = 1U << faces_.heights[upper - 1].face;
+    const auto may_matter_to = [&](const auto& is_inside) {
+      return may_matter_of(faces_.heights[lower - 1], faces_.heights[upper - 1], is_inside);
+    };
+    if (may_matter_to([&](std::uint32_t m) { return look_.is_inside(m); })) return true;
+    return question_.with_area && std::ranges::any_of(faces_.walls, [&](const ColumnWall& wall) {
+             return may_matter_to([&](std::uint32_t m) { return is_surface(wall, m); });
+           });
+  }
+  /// Does so for any function of the faces that are negative. It does not matter of two faces of
+  /// which another says which of them counts.
+  template <class Inside>
+  bool may_matter_of(const ColumnHeight& one, const ColumnHeight& other,
+                     const Inside& is_inside) const {
+    const std::uint32_t a = 1U << one.face;
+    const std::uint32_t b = 1U << other.face;
     for (std::uint32_t m = 0; m < 1U << look_.faces.size(); ++m) {
       if ((m & (a | b)) != 0) continue;
       const auto differ = [&](std::uint32_t x, std::uint32_t y) {
-        return look_.is_inside(m | x) != look_.is_inside(m | y);
+        return is_inside(m | x) != is_inside(m | y);
       };
       if ((differ(0, a) || differ(b, a | b)) && (differ(0, b) || differ(a, a | b))) return true;
     }
@@ -439,8 +458,6 @@ std::optional<CellMass> column_mass(const CellSolid& solid, const Bounds& box, c
   CellMass result{.part = column.mass(), .column_axis = axis};
   if (question.with_area) {
     result.part.area = column.area() + column.area_of_walls();
-    // Where a height is too steep somewhere, less is known of its area than of one that is cut.
-    if (!std::isfinite(result.part.area.hi)) return {};
   }
   return result;
 }

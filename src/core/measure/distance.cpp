@@ -189,6 +189,7 @@ class PairSearch {
         if (!divides_a) add(open.a, i);
       }
     }
+    if (search_.most() == infinity) offer_any();
     result_.distance = {search_.least(), search_.most()};
     if (result_.overlap) result_.distance = {0, 0};
     return result_;
@@ -205,8 +206,7 @@ class PairSearch {
     const CellTree::Node& b = b_.node(number_b);
     const Vec3 way = way_between(a.cell.box, b.cell.box);
     const double apart = glm::length(way);
-    const double off = distance_rounding *
-                       std::max(a.cell.box.farthest(), b.cell.box.farthest());
+    const double off = distance_rounding * std::max(a.cell.box.farthest(), b.cell.box.farthest());
     // These directions say how near they may be: that between the boxes, that of the nearest pair
     // so far, which is the right one at once where edges or faces are parallel, and the normals.
     const Vec3 between =
@@ -263,8 +263,18 @@ class PairSearch {
       if (before - search_.most() < 0.1 * width_of(search_.most(), size_, options_)) return;
     }
   }
+  /// Takes some pair of points, if time ended the search before one was known.
+  void offer_any() {
+    const Vec3 from = CellFrame(b_.node(0).cell.box).middle;
+    const NearestPoint of_a = near_a_.find(from);
+    const Vec3 on_a = of_a.distance.upper > 0 ? of_a.point : from;
+    const NearestPoint of_b = near_b_.find(on_a);
+    const bool is_apart = of_b.distance.upper > 0;
+    take(on_a, is_apart ? of_b.point : on_a, is_apart ? of_b.distance.upper : 0);
+  }
   bool take(const Vec3& on_a, const Vec3& on_b, double distance) {
-    if (!search_.offer(distance)) return false;
+    // The point that is in both stays.
+    if (result_.overlap || !search_.offer(distance)) return false;
     result_.on_a = on_a;
     result_.on_b = on_b;
     return true;

@@ -18,14 +18,19 @@ void HeightFieldFunctions::look(const PointOf<Interval>& box, NearFaces& near) c
     within[i] = {std::max(box[i].lo, bounds.lower[axis]), std::min(box[i].hi, upper)};
   }
   look_at_surface(within, near);
+  bool is_on_side = box[1].lo <= bounds.lower.y;
   for (std::uint32_t side = 0; side < HeightFacets::side_count; ++side) {
     const std::size_t i = side / 2 == 0 ? 0 : 2;
     const auto axis = static_cast<int>(i);
     const bool crosses =
-        side % 2 == 0 ? box[i].lo < bounds.lower[axis] : box[i].hi > bounds.upper[axis];
+        side % 2 == 0 ? box[i].lo <= bounds.lower[axis] : box[i].hi >= bounds.upper[axis];
     if (crosses) near.keep_within(side);
+    is_on_side = is_on_side || crosses;
   }
-  if (box[1].lo < bounds.lower.y) near.keep_within(HeightFacets::bottom_face);
+  if (box[1].lo <= bounds.lower.y) near.keep_within(HeightFacets::bottom_face);
+  // A line through a point of an edge may only touch the solid.
+  if (is_on_side && near.kind == NearFaces::Kind::outside && is_one_point(box))
+    near.say(NearFaces::Kind::unknown);
 }
 
 /// Says what is known of a box that is below or above the surface.

@@ -46,7 +46,7 @@ void ImplicitFunctions::look(const PointOf<Interval>& box, NearFaces& near) cons
     const std::size_t i = side / 2;
     const auto axis = static_cast<int>(i);
     const bool crosses =
-        side % 2 == 0 ? box[i].lo < bounds.lower[axis] : box[i].hi > bounds.upper[axis];
+        side % 2 == 0 ? box[i].lo <= bounds.lower[axis] : box[i].hi >= bounds.upper[axis];
     if (crosses) near.keep_within(1 + side);
   }
 }

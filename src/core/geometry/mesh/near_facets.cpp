@@ -51,16 +51,20 @@ int side_of(const HalfSpaceFunction& plane, const PointOf<Interval>& box) {
     value = box[i] - Interval::of(plane.position[static_cast<int>(i)]);
     if (plane.normal[i].hi < 0) value = -value;
   }
+  if (value.lo == 0 && value.hi == 0) return 0;
   return value.lo >= 0 ? 1 : (value.hi <= 0 ? -1 : 0);
 }
 
 CutByTriangle cut_by(const Triangle& triangle, const HalfSpaceFunction& plane,
                      const PointOf<Interval>& box) {
+  // A point on the triangle's edges is cut, too.
+  const bool is_point = is_one_point(box);
+  const auto is_below = [&](double a, double b) { return is_point ? a < b : a <= b; };
   Bounds bounds;
   for (const Vec3& corner : {triangle.a, triangle.b, triangle.c}) bounds.include(corner);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<int>(i);
-    if (box[i].hi <= bounds.lower[axis] || box[i].lo >= bounds.upper[axis])
+    if (is_below(box[i].hi, bounds.lower[axis]) || is_below(bounds.upper[axis], box[i].lo))
       return CutByTriangle::none;
   }
   if (side_of(plane, box) != 0) return CutByTriangle::none;
@@ -70,7 +74,7 @@ CutByTriangle cut_by(const Triangle& triangle, const HalfSpaceFunction& plane,
     const PointOf<Interval> edge = relative_to(known_point(corners[i + 1]), corners[i]);
     const HalfSpaceFunction inwards{.normal = cross(plane.normal, edge), .position = corners[i]};
     const Interval within = inwards.value(box);
-    if (within.hi <= 0) return CutByTriangle::none;
+    if (is_below(within.hi, 0)) return CutByTriangle::none;
     is_all = is_all && within.lo >= 0;
   }
   return is_all ? CutByTriangle::all : CutByTriangle::some;

@@ -15,11 +15,11 @@ namespace crt::core {
 /// for a plane across an axis, and else of about the length of two sides' product.
 HalfSpaceFunction plane_function(const Triangle& triangle);
 
-/// Returns the sign of a plane's function in a box, or 0 if it may have both.
+/// Returns the sign of a plane's function in a box, or 0 if it may have both or is 0.
 int side_of(const HalfSpaceFunction& plane, const PointOf<Interval>& box);
 
-/// Says whether a triangle cuts a box: surely not, as what only touches it, or perhaps, or surely
-/// with all that its plane has in the box.
+/// Says whether a triangle cuts a box: surely not, as what only touches one that is no point, or
+/// perhaps, or surely with all that its plane has in the box.
 enum class CutByTriangle : std::uint8_t { none, some, all };
 CutByTriangle cut_by(const Triangle& triangle, const HalfSpaceFunction& plane,
                      const PointOf<Interval>& box);

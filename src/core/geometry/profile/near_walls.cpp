@@ -17,8 +17,9 @@ namespace crt::core {
 
 namespace {
 
-/// Returns the sign of an interval whose ends may be 0, or 0 if it has both.
+/// Returns the sign of an interval whose ends may be 0, or 0 if it has both or is 0.
 int sign_of(const Interval& a) {
+  if (a.lo == 0 && a.hi == 0) return 0;
   return a.lo >= 0 ? 1 : (a.hi <= 0 ? -1 : 0);
 }
 
@@ -399,8 +400,8 @@ Interval center_across_axis(const Profile::Arc& arc, bool is_turned_about_axis) 
 void look_at_region(const Profile& profile, bool is_turned_about_axis,
                     const PointOf<Interval>& rectangle, NearFaces& near) {
   const Bounds& bounds = profile.bounds();
-  const bool is_beyond = rectangle[0].hi <= bounds.lower.x || rectangle[0].lo >= bounds.upper.x ||
-                         rectangle[1].hi <= bounds.lower.y || rectangle[1].lo >= bounds.upper.y;
+  const bool is_beyond = rectangle[0].hi < bounds.lower.x || rectangle[0].lo > bounds.upper.x ||
+                         rectangle[1].hi < bounds.lower.y || rectangle[1].lo > bounds.upper.y;
   if (is_beyond) return near.say(NearFaces::Kind::outside);
   if (!(rectangle[0].width() < infinity && rectangle[1].width() < infinity))
     return near.say(NearFaces::Kind::unknown);

@@ -64,12 +64,12 @@ void RevolutionFunctions::look_between_ends(const PointOf<Interval>& box, NearFa
   bool is_in_all = true;
   for (std::uint32_t end = 0; end < turned_.planes; ++end) {
     const Interval beyond = value(end, box);
-    if (beyond.hi <= 0) {
+    if (beyond.hi < 0) {
       is_in_one = true;
       continue;
     }
     is_in_all = false;
-    if (beyond.lo < 0) {
+    if (beyond.lo <= 0) {
       crossing[crossing_count++] = end;
     } else if (!turned_.is_union) {
       return near.say(NearFaces::Kind::outside);
