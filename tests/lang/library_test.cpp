@@ -82,10 +82,12 @@ TEST_CASE("the library is found without a file, and no file takes its place") {
 
 TEST_CASE("materials of the library weigh what they are of, also when they are varied") {
   const auto density_of = [](const std::string& material) {
-    const crt::test::Run run = crt::test::run(
-        "import \"crt/metals\" import \"crt/glass\" import \"crt/woods\" "
-        "import \"crt/materials\" Scene { Sphere { } <material " +
-        material + "> }");
+    std::string script;
+    for (const char* name : {"metals", "glass", "woods", "materials"})
+      script += fmt::format("import \"crt/{}\"\n", name);
+    script += fmt::format(
+        "Scene {{ Sphere {{ center -> vec3(0, 0, 0) radius -> 1 material -> {} }} }}", material);
+    const crt::test::Run run = crt::test::run(script);
     REQUIRE(run.ok());
     return crt::density(run.result.scene->entities[0]);
   };

@@ -252,7 +252,8 @@ def main() -> int:
     parser.add_argument("--openscad-seconds", type=float, default=60)
     options = parser.parse_args()
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    account, manifold, told, shown = Account(), Manifold(options.folder), time.monotonic(), 0
+    account, manifold, shown = Account(), Manifold(options.folder), 0
+    reported = time.monotonic()
     try:
         for number in range(options.first, options.first + options.count):
             tree = random_tree(options.seed, number)
@@ -262,8 +263,8 @@ def main() -> int:
             for failure in account.failures[shown:]:
                 print(failure, flush=True)
             shown = len(account.failures)
-            if time.monotonic() - told > 10:
-                told = time.monotonic()
+            if time.monotonic() - reported > 10:
+                reported = time.monotonic()
                 print(f"[{account.asked} of {options.count}]", account.report(), file=sys.stderr)
     except KeyboardInterrupt:
         print("It was interrupted.")
