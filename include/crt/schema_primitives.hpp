@@ -204,13 +204,12 @@ template <>
 inline constexpr auto table<Sweep> = Table{
     "Sweep",
     field("profile", &Sweep::profile, made_by("make_profile"), required,
-          "as for an [Extrusion](#extrusion); its origin is on the path"),
+          "as for an [Extrusion](#extrusion), about the path"),
     field("path", &Sweep::path, any, required,
           "points that are joined by straight lines, at least 2"),
     field("bend", &Sweep::bend, length_or_zero, {},
-          "the radius of arcs at the points in between; without any the corners are mitred"),
-    field("up", &Sweep::up, direction, {},
-          "where y of the profile points at the first line; z or x if that is along the line"),
+          "the radius of arcs at points in between; 0 is a mitre"),
+    field("up", &Sweep::up, direction, {}, "where y of the profile points at first; else z or x"),
     field("closed", &Sweep::closed, any, {}, "leads back from the last point to the first"),
     material<Sweep>,
 };
@@ -219,8 +218,7 @@ template <>
 inline constexpr auto table<Tube> = Table{
     "Tube",
     field("path", &Tube::path, any, required, "points, at least 2"),
-    field("radii", &Tube::radii, any, required,
-          "the radius at each point, or one number for all; 0 is a tip"),
+    field("radii", &Tube::radii, any, required, "the radius at each point, or one; 0 is a tip"),
     field("smooth", &Tube::smooth, any, {}, "lets the path be a curve through its points"),
     field("closed", &Tube::closed, any, {}, "leads back from the last point to the first"),
     field("deviation", &Tube::deviation, length_or_zero, {.default_text = "a 1000th of the radius"},
@@ -246,7 +244,7 @@ inline constexpr auto table<Polyhedron> = Table{
     "Polyhedron",
     field("points", &Polyhedron::points, any, required, "the corners"),
     field("faces", &Polyhedron::faces, any, required,
-          "the corners of each, by their places in `points` from 0, in order"),
+          "the corners of each, by their places from 0"),
     material<Polyhedron>,
 };
 

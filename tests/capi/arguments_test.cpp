@@ -45,11 +45,6 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_custom custom;
   crt_custom_init(&custom, sizeof custom);
   const double heights[4] = {0.5, 1, 0, 0.25};
-  const double two[6] = {0, 0, 0, 0, 0, 1};
-  const double four[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-  const std::uint32_t all[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 2, 3};
-  const std::uint32_t of_3[4] = {3, 3, 3, 3};
-  const std::uint32_t too_many[1] = {2000};
   const crt_blob_part blob_part = {{0, 0, 0}, {0, 0, 0}, 1, 1};
   crt_farm_job planned;
   planned.struct_size = sizeof planned;
@@ -81,36 +76,6 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"from", [&] { return crt_revolution_create(square.get(), nullptr, o, 1, &entity); }},
       {"to", [&] { return crt_revolution_create(square.get(), z, nullptr, 1, &entity); }},
       {"out", [&] { return crt_revolution_create(square.get(), z, o, 1, nullptr); }},
-      {"profile", [&] { return crt_sweep_create(nullptr, two, 2, 0, o, 0, &entity); }},
-      {"path", [&] { return crt_sweep_create(square.get(), nullptr, 2, 0, o, 0, &entity); }},
-      {"path", [&] { return crt_sweep_create(square.get(), two, 1, 0, o, 0, &entity); }},
-      {"path", [&] { return crt_sweep_create(square.get(), two, 2, 0, o, 1, &entity); }},
-      {"bend", [&] { return crt_sweep_create(square.get(), two, 2, -1, o, 0, &entity); }},
-      {"up", [&] { return crt_sweep_create(square.get(), two, 2, 0, nullptr, 0, &entity); }},
-      {"up", [&] { return crt_sweep_create(square.get(), two, 2, 0, z, 0, &entity); }},
-      {"out", [&] { return crt_sweep_create(square.get(), two, 2, 0, o, 0, nullptr); }},
-      {"path", [&] { return crt_tube_create(nullptr, two, 2, 0, 0, 0, &entity); }},
-      {"path", [&] { return crt_tube_create(two, two, 0, 0, 0, 0, &entity); }},
-      {"radii", [&] { return crt_tube_create(two, nullptr, 2, 0, 0, 0, &entity); }},
-      {"radii", [&] { return crt_tube_create(two, z, 2, 0, 0, 0, &entity); }},
-      {"deviation", [&] { return crt_tube_create(two, o, 2, 1, 0, -1, &entity); }},
-      {"out", [&] { return crt_tube_create(two, o, 2, 0, 0, 0, nullptr); }},
-      {"points", [&] { return crt_polyhedron_create(nullptr, 4, all, of_3, 4, &entity); }},
-      {"corners", [&] { return crt_polyhedron_create(four, 4, nullptr, of_3, 4, &entity); }},
-      {"sizes", [&] { return crt_polyhedron_create(four, 4, all, nullptr, 4, &entity); }},
-      {"sizes", [&] { return crt_polyhedron_create(four, 4, all, too_many, 1, &entity); }},
-      {"faces", [&] { return crt_polyhedron_create(four, 4, all, of_3, 3, &entity); }},
-      {"faces", [&] { return crt_polyhedron_create(four, 3, all, of_3, 4, &entity); }},
-      {"faces", [&] { return crt_polyhedron_create(four, 4, all, of_3, 0, &entity); }},
-      {"out", [&] { return crt_polyhedron_create(four, 4, all, of_3, 4, nullptr); }},
-      {"points", [&] { return crt_hull_create(nullptr, 4, &entity); }},
-      {"points", [&] { return crt_hull_create(four, 3, &entity); }},
-      {"out", [&] { return crt_hull_create(four, 4, nullptr); }},
-      {"from", [&] { return crt_thread_create(nullptr, o, 8, 1, 0, &entity); }},
-      {"to", [&] { return crt_thread_create(o, o, 8, 1, 0, &entity); }},
-      {"pitch", [&] { return crt_thread_create(z, o, 8, 8, 0, &entity); }},
-      {"pitch", [&] { return crt_thread_create(z, o, 8, 1e-5, 0, &entity); }},
-      {"out", [&] { return crt_thread_create(z, o, 8, 1, 0, nullptr); }},
       {"out", [&] { return crt_profile_create(nullptr); }},
       {"profile", [&] { return crt_profile_move_to(nullptr, 0, 0); }},
       {"profile", [&] { return crt_profile_line_to(nullptr, 0, 0); }},

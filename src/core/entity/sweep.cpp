@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/geometry/check_fields.hpp"
-#include "core/geometry/profile/profile.hpp"
+#include "core/geometry/profile_contours.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
 #include "crt/schema_primitives.hpp"
@@ -100,7 +100,7 @@ class SweptPath {
     for (const Vec3& point : sweep_.path) check_coordinates("path", point);
     if (sweep_.bend == 0) return;
     std::size_t corners = 0;
-    for (const Contour& contour : sweep_.profile->contours()) corners += contour.size();
+    for (const Contour& contour : contours_of(*sweep_.profile)) corners += contour.size();
     constexpr std::size_t most_corners = std::size_t{1} << 20;
     if (corners * sweep_.path.size() > most_corners)
       throw Error(ErrorCode::limit,
@@ -150,7 +150,7 @@ class SweptPath {
   }
 
   double reach_of_profile() const {
-    const Bounds& bounds = sweep_.profile->bounds();
+    const Bounds& bounds = bounds_of(*sweep_.profile);
     double reach = 0;
     for (const double x : {bounds.lower.x, bounds.upper.x})
       for (const double y : {bounds.lower.y, bounds.upper.y})
@@ -217,7 +217,7 @@ class SweptPath {
 
   /// Checks that a line is long enough for the profile to turn at both of its ends.
   void check_room(std::size_t i, const Frame& frame, double from, double to) const {
-    const Bounds& bounds = sweep_.profile->bounds();
+    const Bounds& bounds = bounds_of(*sweep_.profile);
     // Returns how far along the line a mitre's plane is at a place of the profile.
     const auto at_mitre = [&](std::size_t number, const Vec3& offset) {
       if (!has_corner(number) || corner(number).has_bend) return 0.0;
@@ -262,7 +262,7 @@ class SweptPath {
     const double xy = without_rounding(-glm::dot(frame.y, at.inwards));
     const double yx = without_rounding(glm::dot(frame.x, at.axis));
     const double yy = without_rounding(glm::dot(frame.y, at.axis));
-    std::vector<Contour> contours = sweep_.profile->contours();
+    std::vector<Contour> contours = contours_of(*sweep_.profile);
     for (Contour& contour : contours) {
       for (ProfilePoint& corner : contour) {
         // It is seen from behind.
@@ -272,7 +272,7 @@ class SweptPath {
       }
     }
     std::shared_ptr<const Profile> profile = make_profile(contours);
-    if (profile->bounds().lower.x < 0)
+    if (bounds_of(*profile).lower.x < 0)
       reject("bend",
              text::format("must be as large as the profile reaches inwards at point {}", i));
     return profile;

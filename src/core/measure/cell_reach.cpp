@@ -30,8 +30,8 @@ class FarthestCorner {
   }
 
  private:
-  /// Of one face it is the best corner of the cube, less what brings it to the right side of the
-  /// face at the least loss of distance.
+  /// Finds the farthest point beside one face: the best corner of the cube, less what brings it to
+  /// the right side of the face at the least loss of distance.
   void find_beside(const CellFace& face) {
     const double sign = look_.is_inside(1) == wanted_ ? 1 : -1;
     const Vec3 rise = sign * face.slope;

@@ -239,9 +239,15 @@ class Column {
   void doubt_wall(const ColumnWall& wall) {
     const double area = area_in_doubt(wall.function, wall.error);
     const double height = rounded_up(frame_.box.upper[frame_.c] - frame_.box.lower[frame_.c]);
+    const auto is_within = [&](std::size_t level) {
+      const Interval range = range_of(levels_[level]);
+      return range.lo > frame_.box.lower[frame_.c] && range.hi < frame_.box.upper[frame_.c];
+    };
     for (std::size_t first = 1; first + 1 < levels_.size(); ++first) {
       for (std::size_t second = first + 1; second + 1 < levels_.size(); ++second) {
-        if (!only_exchanges(wall, first, second)) continue;
+        if (!is_within(first) || !is_within(second)) continue;
+        if (!only_exchanges(look_, wall, faces_.heights[first - 1], faces_.heights[second - 1]))
+          continue;
         in_doubt_ +=
             area * std::min(height, range_of(levels_[second] - levels_[first]).magnitude());
         return exchanges_.push_back({first, second, area});
@@ -249,30 +255,6 @@ class Column {
     }
     in_doubt_ += area * height;
     for (double& sum : areas_in_doubt_) sum += area;
-  }
-  /// Returns whether a wall only says which of two heights is surface: on its sides the solid
-  /// differs between them alone, and one of them always counts.
-  bool only_exchanges(const ColumnWall& wall, std::size_t first, std::size_t second) const {
-    const auto is_within = [&](std::size_t level) {
-      const Interval range = range_of(levels_[level]);
-      return range.lo > frame_.box.lower[frame_.c] && range.hi < frame_.box.upper[frame_.c];
-    };
-    if (!is_within(first) || !is_within(second)) return false;
-    const ColumnHeight& one = faces_.heights[first - 1];
-    const ColumnHeight& other = faces_.heights[second - 1];
-    const std::uint32_t bit = 1U << wall.face;
-    const std::uint32_t both = 1U << one.face | 1U << other.face;
-    // Below a height its function is negative if it grows.
-    const std::uint32_t below =
-        (one.grows ? 1U << one.face : 0) | (other.grows ? 1U << other.face : 0);
-    for (std::uint32_t m = 0; m < 1U << look_.faces.size(); ++m) {
-      if (look_.is_inside(m) == look_.is_inside(m ^ bit)) continue;
-      const std::uint32_t not_below = (m ^ below) & both;
-      if (not_below == 0 || not_below == both) return false;
-      const std::uint32_t rest = m & ~both;
-      if (look_.is_inside(rest | below) == look_.is_inside(rest | (both ^ below))) return false;
-    }
-    return true;
   }
   /// Divides a part until it matters no more where levels cross in it. It matters twice: what is on
   /// the wrong side of the line is so little because the two levels are so near there.

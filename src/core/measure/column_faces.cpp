@@ -179,4 +179,21 @@ int column_axis_of(const CellLook& look, const Vec3& half) {
   return best;
 }
 
+bool only_exchanges(const CellLook& look, const ColumnWall& wall, const ColumnHeight& one,
+                    const ColumnHeight& other) {
+  const std::uint32_t bit = 1U << wall.face;
+  const std::uint32_t both = 1U << one.face | 1U << other.face;
+  // Below a height its function is negative if it grows.
+  const std::uint32_t below =
+      (one.grows ? 1U << one.face : 0) | (other.grows ? 1U << other.face : 0);
+  for (std::uint32_t m = 0; m < 1U << look.faces.size(); ++m) {
+    if (look.is_inside(m) == look.is_inside(m ^ bit)) continue;
+    const std::uint32_t not_below = (m ^ below) & both;
+    if (not_below == 0 || not_below == both) return false;
+    const std::uint32_t rest = m & ~both;
+    if (look.is_inside(rest | below) == look.is_inside(rest | (both ^ below))) return false;
+  }
+  return true;
+}
+
 }  // namespace crt::core

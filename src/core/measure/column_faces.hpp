@@ -68,4 +68,9 @@ PatchSeries slant_of(const CellSolid& solid, const CellLook& look, const ColumnF
 /// -1 if there is none.
 int column_axis_of(const CellLook& look, const Vec3& half);
 
+/// Returns whether a wall only says which of two heights is surface: on its sides the solid differs
+/// between them alone, and one of them always counts.
+bool only_exchanges(const CellLook& look, const ColumnWall& wall, const ColumnHeight& one,
+                    const ColumnHeight& other);
+
 }  // namespace crt::core

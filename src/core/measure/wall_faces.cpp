@@ -18,7 +18,7 @@ constexpr double angle_rounding = 0x1p-40;
 /// or a point that is as small.
 constexpr double largest_turn = 0.25;
 
-constexpr Directions any_direction{.middle = {1, 0, 0}, .spread = std::numbers::pi};
+constexpr Directions every_direction{.middle = {1, 0, 0}, .spread = std::numbers::pi};
 
 Directions reversed(const Directions& directions) {
   return {-directions.middle, directions.spread};
@@ -111,7 +111,7 @@ bool is_narrow(const CellLook& look, std::size_t face, std::uint32_t negative, c
 std::vector<WallFace> wall_faces_of(const CellLook& look, const Vec3& half, double narrow) {
   const bool is_small = largest_component(half) <= narrow;
   std::vector<WallFace> faces;
-  if (look.kind == CellLook::Kind::unknown) faces.push_back({.outward = any_direction});
+  if (look.kind == CellLook::Kind::unknown) faces.push_back({.outward = every_direction});
   if (look.kind != CellLook::Kind::crossed) return faces;
   const std::uint32_t count = 1U << look.faces.size();
   for (std::size_t i = 0; i < look.faces.size(); ++i) {
@@ -141,7 +141,7 @@ Directions directions_of(const std::array<Interval, 3>& vectors) {
   }
   const double scale = largest_component(glm::abs(middle));
   const double share = glm::length(off / scale) / glm::length(middle / scale);
-  if (!(share < 1)) return any_direction;
+  if (!(share < 1)) return every_direction;
   return {.middle = middle / scale / glm::length(middle / scale),
           .spread = elementary::asin(share) + angle_rounding};
 }

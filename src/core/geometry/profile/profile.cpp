@@ -10,6 +10,7 @@
 #include "core/geometry/angles.hpp"
 #include "core/geometry/canonical_plane.hpp"
 #include "core/geometry/checks.hpp"
+#include "core/geometry/profile_contours.hpp"
 #include "core/math/exact_sides.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
@@ -301,5 +302,16 @@ std::size_t Profile::bytes() const {
   return sizeof *this + contours_.capacity() * sizeof(Contour) + corners * sizeof(ProfilePoint) +
          pieces_.capacity() * sizeof(Piece) + arcs_.capacity() * sizeof(Arc) + tree_.bytes();
 }
+
+namespace core {
+
+const std::vector<Contour>& contours_of(const Profile& profile) {
+  return profile.contours();
+}
+const Bounds& bounds_of(const Profile& profile) {
+  return profile.bounds();
+}
+
+}  // namespace core
 
 }  // namespace crt
