@@ -193,6 +193,7 @@ Value sum(const Arguments& arguments) {
   context.spend(arguments.call, items.size());
   if (are_entities) {
     std::vector<Entity> parts;
+    parts.reserve(items.size());
     for (const Value& item : items) parts.push_back(std::get<Entity>(item));
     return union_of(context, arguments.call, parts);
   }

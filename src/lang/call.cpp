@@ -173,6 +173,7 @@ std::size_t Interpreter::parameter_of(const CallSite& site, const NamePlace& arg
   context_.spend(argument.span, index / items_per_step);
   if (index < parameters.size()) return index;
   std::vector<std::string_view> names;
+  names.reserve(parameters.size());
   for (const NamePlace& parameter : parameters)
     names.push_back(context_.symbols.name(parameter.symbol));
   const std::string_view name = context_.symbols.name(argument.symbol);

@@ -205,16 +205,17 @@ class Completer {
         base && base->value ? std::get_if<lang::DictionaryLiteral>(&base->value->node) : nullptr;
     if (dictionary) {
       for (const lang::AttributeSyntax& entry : dictionary->entries)
-        list_.items.push_back(items_.part(before.symbols().name(entry.name.symbol)));
+        list_.items.push_back(CompletionItems::part(before.symbols().name(entry.name.symbol)));
       return;
     }
     for (const char* part : {"x", "y", "z", "r", "g", "b", "a"})
-      list_.items.push_back(items_.part(part));
+      list_.items.push_back(CompletionItems::part(part));
   }
 
   /// Adds the parameters of the macro in whose call the cursor is, where an argument may begin.
   void add_parameters(const CutText& cut, const Program& before) {
-    const auto& [tokens, comments, open] = cut.tokens;
+    const auto& tokens = cut.tokens.tokens;
+    const auto& open = cut.tokens.open_brackets;
     if (open.empty() || tokens.empty()) return;
     const auto bracket = std::find_if(tokens.begin(), tokens.end(), [&](const lang::Token& token) {
       return token.span == open.back() && token.kind == Kind::S_LEFT_PARENTHESIS;
@@ -228,7 +229,8 @@ class Completer {
     if (!macro) return;
     const bool needs_arrow = !arrow_follows(program_.main().text, list_.end);
     for (const lang::NamePlace& parameter : macro->parameters.names)
-      list_.items.push_back(items_.parameter(before.symbols().name(parameter.symbol), needs_arrow));
+      list_.items.push_back(
+          CompletionItems::parameter(before.symbols().name(parameter.symbol), needs_arrow));
   }
 
   /// Says whether the text ends in a brace. That is where a derived material has no attribute yet,

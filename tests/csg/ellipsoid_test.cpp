@@ -5,11 +5,12 @@
 
 #include <cmath>
 
-#include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/query.hpp"
+#include "csg/made_solids.hpp"
 
 using namespace crt;
+using namespace crt::test;
 
 namespace {
 
@@ -18,15 +19,6 @@ PreparedScene prepared(const Entity& entity, Precision precision) {
   scene.entities = {entity};
   scene.settings.precision = precision;
   return prepare(scene);
-}
-
-std::string fault(const Ellipsoid& ellipsoid) {
-  try {
-    static_cast<void>(Entity(ellipsoid));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace
@@ -82,9 +74,10 @@ TEST_CASE("an ellipsoid is a solid that can be cut, in the box of its radii") {
 }
 
 TEST_CASE("radii and centers that are out of range are named") {
-  CHECK(fault({.radii = {1, 0, 1}}) == "radii must be greater than 0 (it is 0)");
-  CHECK(fault({.radii = {1, 1, -2}}) == "radii must be greater than 0 (it is -2)");
-  CHECK(fault({.radii = {1e101, 1, 1}}) == "radii must be at most 1e100 (it is 1e+101)");
-  CHECK(fault({.center = {0, NAN, 0}}) == "center must be finite (it is (0, nan, 0))");
-  CHECK(fault({}).empty());
+  CHECK(fault_of(Ellipsoid{.radii = {1, 0, 1}}) == "radii must be greater than 0 (it is 0)");
+  CHECK(fault_of(Ellipsoid{.radii = {1, 1, -2}}) == "radii must be greater than 0 (it is -2)");
+  CHECK(fault_of(Ellipsoid{.radii = {1e101, 1, 1}}) ==
+        "radii must be at most 1e100 (it is 1e+101)");
+  CHECK(fault_of(Ellipsoid{.center = {0, NAN, 0}}) == "center must be finite (it is (0, nan, 0))");
+  CHECK(fault_of(Ellipsoid{}).empty());
 }

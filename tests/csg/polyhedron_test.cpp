@@ -9,30 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "crt/error.hpp"
 #include "crt/measure.hpp"
+#include "csg/made_solids.hpp"
 #include "geometry/random.hpp"
 
 using namespace crt;
 using namespace crt::test;
 
 namespace {
-
-template <class Solid>
-std::string fault(const Solid& solid) {
-  try {
-    static_cast<void>(Entity(solid));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
-void check_volume(const Entity& entity, double truth) {
-  const Interval found = volume(entity, {.relative_width = 1e-6});
-  CHECK(found.lower <= truth * (1 + 1e-12));
-  CHECK(found.upper >= truth * (1 - 1e-12));
-}
 
 Polyhedron cube() {
   return {
@@ -112,21 +96,21 @@ TEST_CASE("faces that are not convex are what is in them") {
 TEST_CASE("what a polyhedron can't be is said with its place") {
   Polyhedron open = cube();
   open.faces.pop_back();
-  CHECK(fault(open) ==
+  CHECK(fault_of(open) ==
         "faces must enclose a solid: the edge from point 0 to 3 belongs to 1 of them");
   Polyhedron wrong = cube();
   wrong.faces[1] = {4, 5, 8};
-  CHECK(fault(wrong) == "faces face 1 has the corner 8, but there are 8 points");
+  CHECK(fault_of(wrong) == "faces face 1 has the corner 8, but there are 8 points");
   wrong.faces[1] = {4, 5};
-  CHECK(fault(wrong) == "faces face 1 must have at least 3 corners");
+  CHECK(fault_of(wrong) == "faces face 1 must have at least 3 corners");
   wrong.faces[1] = {4, 5, 6, 4};
-  CHECK(fault(wrong) == "faces face 1 has the corner 4 twice");
+  CHECK(fault_of(wrong) == "faces face 1 has the corner 4 twice");
   Polyhedron crossed = prism({{0, 0}, {2, 2}, {2, 0}, {0, 1}}, 1, 2);
-  CHECK(fault(crossed).find("crosses or touches itself") != std::string::npos);
-  CHECK(fault(Polyhedron{}) == "faces must not be empty");
+  CHECK(fault_of(crossed).find("crosses or touches itself") != std::string::npos);
+  CHECK(fault_of(Polyhedron{}) == "faces must not be empty");
   Polyhedron far = cube();
   far.points[3].x = std::numeric_limits<double>::infinity();
-  CHECK(fault(far).find("points") == 0);
+  CHECK(fault_of(far).find("points") == 0);
 }
 
 TEST_CASE("a hull holds its points and is convex, however they lie") {
@@ -167,8 +151,8 @@ TEST_CASE("a hull holds its points and is convex, however they lie") {
 }
 
 TEST_CASE("what a hull can't be is said") {
-  CHECK(fault(Hull{.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}) ==
+  CHECK(fault_of(Hull{.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}) ==
         "points must not all be in one plane");
-  CHECK(fault(Hull{}) == "points must not all be in one plane");
-  CHECK(fault(Hull{.points = std::vector<Vec3>(2000)}).find("the hull has 2000 points") == 0);
+  CHECK(fault_of(Hull{}) == "points must not all be in one plane");
+  CHECK(fault_of(Hull{.points = std::vector<Vec3>(2000)}).find("the hull has 2000 points") == 0);
 }

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "crt/error.hpp"
 #include "crt/measure.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/query.hpp"
+#include "csg/made_solids.hpp"
 #include "geometry/random.hpp"
 
 using namespace crt;
@@ -34,22 +34,6 @@ std::shared_ptr<const Profile> rectangle(double x0, double y0, double x1, double
   const std::vector<Contour> contours = {
       {{.x = x0, .y = y0}, {.x = x1, .y = y0}, {.x = x1, .y = y1}, {.x = x0, .y = y1}}};
   return make_profile(contours);
-}
-
-template <class Solid>
-std::string fault(const Solid& solid) {
-  try {
-    static_cast<void>(Entity(solid));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
-void check_volume(const Entity& entity, double truth) {
-  const Interval found = volume(entity, {.relative_width = 1e-6});
-  CHECK(found.lower <= truth * (1 + 1e-12));
-  CHECK(found.upper >= truth * (1 - 1e-12));
 }
 
 /// Returns whether a ray from outside enters as often as it leaves, where contains() says so.
@@ -192,28 +176,28 @@ TEST_CASE("a closed path comes back to where it began") {
 
 TEST_CASE("what a sweep can't be is said with its place") {
   const std::vector<Vec3> corner = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
-  CHECK(fault(Sweep{.path = corner}).find("profile") != std::string::npos);
-  CHECK(fault(Sweep{.profile = disc(1), .path = {{0, 0, 0}}}) ==
+  CHECK(fault_of(Sweep{.path = corner}).find("profile") != std::string::npos);
+  CHECK(fault_of(Sweep{.profile = disc(1), .path = {{0, 0, 0}}}) ==
         "path must have at least 2 points");
-  CHECK(fault(Sweep{.profile = disc(1), .path = {{0, 0, 0}, {0, 0, 0}}}) ==
+  CHECK(fault_of(Sweep{.profile = disc(1), .path = {{0, 0, 0}, {0, 0, 0}}}) ==
         "path stands still at point 0");
-  CHECK(fault(Sweep{.profile = disc(0.1), .path = {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}}) ==
+  CHECK(fault_of(Sweep{.profile = disc(0.1), .path = {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}}) ==
         "path turns straight back at point 1");
-  CHECK(fault(Sweep{.profile = disc(0.5), .path = corner, .bend = 0.25}) ==
+  CHECK(fault_of(Sweep{.profile = disc(0.5), .path = corner, .bend = 0.25}) ==
         "bend must be as large as the profile reaches inwards at point 1");
-  CHECK(fault(Sweep{.profile = disc(0.5), .path = corner, .bend = 2}) ==
+  CHECK(fault_of(Sweep{.profile = disc(0.5), .path = corner, .bend = 2}) ==
         "path has too little room to turn between points 0 and 1");
-  CHECK(fault(Sweep{.profile = disc(1.5), .path = corner}) ==
+  CHECK(fault_of(Sweep{.profile = disc(1.5), .path = corner}) ==
         "path has too little room to turn between points 0 and 1");
-  CHECK(fault(Sweep{.profile = disc(0.1), .path = corner, .bend = -1}).find("bend") == 0);
-  CHECK(fault(Sweep{.profile = disc(0.1), .path = corner, .up = {0, 0, 0}}).find("up") == 0);
+  CHECK(fault_of(Sweep{.profile = disc(0.1), .path = corner, .bend = -1}).find("bend") == 0);
+  CHECK(fault_of(Sweep{.profile = disc(0.1), .path = corner, .up = {0, 0, 0}}).find("up") == 0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(fault(Sweep{.profile = disc(0.1), .path = {{0, 0, 0}, {1, nan, 0}}}).find("path") == 0);
+  CHECK(fault_of(Sweep{.profile = disc(0.1), .path = {{0, 0, 0}, {1, nan, 0}}}).find("path") == 0);
   const Sweep twisted{
       .profile = disc(0.01), .path = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 2, 1}}, .closed = true};
-  CHECK(fault(twisted).find("path must be flat if it is closed") == 0);
+  CHECK(fault_of(twisted).find("path must be flat if it is closed") == 0);
   const Sweep long_one{.profile = disc(0.1), .path = std::vector<Vec3>(5000, Vec3(0))};
-  CHECK(fault(long_one).find("path has 5000 points") == 0);
+  CHECK(fault_of(long_one).find("path has 5000 points") == 0);
 }
 
 TEST_CASE("a tube with one radius is all that is near its lines") {
@@ -294,16 +278,16 @@ TEST_CASE("a smooth tube goes through its points, within its deviation of a curv
 
 TEST_CASE("what a tube can't be is said") {
   const std::vector<Vec3> path = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
-  CHECK(fault(Tube{.path = {{0, 0, 0}}, .radii = {1}}) == "path must have at least 2 points");
-  CHECK(fault(Tube{.path = path, .radii = {1, 2}}) ==
+  CHECK(fault_of(Tube{.path = {{0, 0, 0}}, .radii = {1}}) == "path must have at least 2 points");
+  CHECK(fault_of(Tube{.path = path, .radii = {1, 2}}) ==
         "radii must be 1, or as many as there are points: 3, not 2");
-  CHECK(fault(Tube{.path = path, .radii = {}}).find("radii") == 0);
-  CHECK(fault(Tube{.path = path, .radii = {0}}) == "radii must not all be 0");
-  CHECK(fault(Tube{.path = path, .radii = {1, -1, 1}}).find("radii") == 0);
-  CHECK(fault(Tube{.path = {{0, 0, 0}, {0, 0, 0}}, .radii = {1}}) ==
+  CHECK(fault_of(Tube{.path = path, .radii = {}}).find("radii") == 0);
+  CHECK(fault_of(Tube{.path = path, .radii = {0}}) == "radii must not all be 0");
+  CHECK(fault_of(Tube{.path = path, .radii = {1, -1, 1}}).find("radii") == 0);
+  CHECK(fault_of(Tube{.path = {{0, 0, 0}, {0, 0, 0}}, .radii = {1}}) ==
         "path stands still at point 0");
   const Tube fine{.path = path, .radii = {1}, .smooth = true, .deviation = 1e-12};
-  CHECK(fault(fine).find("the tube has over 4096 pieces") == 0);
+  CHECK(fault_of(fine).find("the tube has over 4096 pieces") == 0);
 }
 
 TEST_CASE("sweeps and tubes wear one material, and take part in operations") {

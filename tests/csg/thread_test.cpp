@@ -7,23 +7,15 @@
 #include <numbers>
 #include <string>
 
-#include "crt/error.hpp"
 #include "crt/measure.hpp"
+#include "csg/made_solids.hpp"
 
 using namespace crt;
+using namespace crt::test;
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-std::string fault(const Thread& thread) {
-  try {
-    static_cast<void>(Entity(thread));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
 
 /// Returns how far from the axis the thread's surface is, along z, at an angle from x towards y.
 double radius_at(const Entity& thread, double z, double angle) {
@@ -108,8 +100,8 @@ TEST_CASE("a thread cuts a nut, and has flat ends anywhere") {
 }
 
 TEST_CASE("what a thread can't be is said") {
-  CHECK(fault(Thread{.diameter = 1, .pitch = 1}) == "pitch must be at most 0.9 diameters");
-  CHECK(fault(Thread{.to = {0, 0, 1e5}}) == "pitch must be at least a 10000th of the length");
-  CHECK(fault(Thread{.diameter = 0}).find("diameter") == 0);
-  CHECK(fault(Thread{.to = {0, 0, 0}}).find("to must differ from from") == 0);
+  CHECK(fault_of(Thread{.diameter = 1, .pitch = 1}) == "pitch must be at most 0.9 diameters");
+  CHECK(fault_of(Thread{.to = {0, 0, 1e5}}) == "pitch must be at least a 10000th of the length");
+  CHECK(fault_of(Thread{.diameter = 0}).find("diameter") == 0);
+  CHECK(fault_of(Thread{.to = {0, 0, 0}}).find("to must differ from from") == 0);
 }

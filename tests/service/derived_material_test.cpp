@@ -87,7 +87,7 @@ TEST_CASE("what a derived material does not say it has from its variable, and th
   CHECK(worn[1].written == "tint");
   // The library's satinGold is derived, too: from pureGold.
   const std::vector<ScriptAttribute>& gold = copy_of(tree, "satinGold").inherited;
-  REQUIRE(names_of(gold) == "roughness color metallic ");
+  REQUIRE(names_of(gold) == "roughness color metallic density ");
   CHECK(gold[0].numbers == std::vector<double>{0.35});
   CHECK(gold[1].literal == LiteralKind::color);
   CHECK(gold[1].written == "rgb(1, 0.766, 0.336)");

@@ -10,9 +10,11 @@
 #include <numbers>
 #include <utility>
 
+#include "core/entity/path.hpp"
 #include "core/geometry/check_fields.hpp"
 #include "core/geometry/profile_contours.hpp"
 #include "core/math/vector.hpp"
+#include "crt/elementary.hpp"
 #include "crt/error.hpp"
 #include "crt/schema_primitives.hpp"
 #include "text/format.hpp"
@@ -37,7 +39,7 @@ struct Corner {
   Plane before{};
   Plane after{};
 
-  double angle() const { return std::atan2(sine, cosine); }
+  double angle() const { return elementary::atan2(sine, cosine); }
   double tangent_of_half() const { return sine / (1 + cosine); }
   Vec3 turned(const Vec3& way) const {
     return way * cosine + glm::cross(axis, way) * sine +
@@ -91,13 +93,7 @@ class SweptPath {
  private:
   void check() const {
     check_fields(sweep_);
-    if (sweep_.path.size() < (sweep_.closed ? 3 : 2))
-      reject("path", sweep_.closed ? "must have at least 3 points, as it is closed"
-                                   : "must have at least 2 points");
-    if (sweep_.path.size() > most_path_points)
-      throw Error(ErrorCode::limit, text::format("path has {} points; at most {} are possible",
-                                                 sweep_.path.size(), most_path_points));
-    for (const Vec3& point : sweep_.path) check_coordinates("path", point);
+    check_path(sweep_.path, sweep_.closed);
     if (sweep_.bend == 0) return;
     std::size_t corners = 0;
     for (const Contour& contour : contours_of(*sweep_.profile)) corners += contour.size();
@@ -118,7 +114,6 @@ class SweptPath {
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 way = point(i + 1) - point(i);
       const double size = largest_component(way);
-      if (!(size >= smallest_length)) reject_point(i, "stands still");
       lines_.push_back(glm::normalize(way / size));
       lengths_.push_back(size * glm::length(way / size));
     }
@@ -154,7 +149,7 @@ class SweptPath {
     double reach = 0;
     for (const double x : {bounds.lower.x, bounds.upper.x})
       for (const double y : {bounds.lower.y, bounds.upper.y})
-        reach = std::max(reach, std::hypot(x, y));
+        reach = std::max(reach, elementary::hypot(x, y));
     return reach;
   }
 
@@ -244,8 +239,10 @@ class SweptPath {
     // The revolution starts along its z, and turns towards its x.
     constexpr double most_beyond = 0.01;
     const double beyond = std::min(most_beyond, 0.25 * (std::numbers::pi - at.angle()));
-    const Vec3 start = -at.inwards * std::cos(beyond) - frame.along * std::sin(beyond);
-    const Vec3 onwards = frame.along * std::cos(beyond) - at.inwards * std::sin(beyond);
+    const Vec3 start =
+        -at.inwards * elementary::cos(beyond) - frame.along * elementary::sin(beyond);
+    const Vec3 onwards =
+        frame.along * elementary::cos(beyond) - at.inwards * elementary::sin(beyond);
     const Vec3 middle = at.before.position + sweep_.bend * at.inwards;
     Entity part =
         placed(Revolution{.profile = turning(i, frame, at), .angle = at.angle() + 2 * beyond},
@@ -286,7 +283,7 @@ class SweptPath {
     constexpr double degrees = 180 / std::numbers::pi;
     reject("path", text::format(
                        "must be flat if it is closed: this one turns its profile by {:.3g} degrees",
-                       std::atan2(sine, cosine) * degrees));
+                       elementary::atan2(sine, cosine) * degrees));
   }
 
   const Sweep& sweep_;

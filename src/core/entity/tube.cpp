@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "core/entity/path.hpp"
 #include "core/geometry/check_fields.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
@@ -60,21 +61,11 @@ class TubePath {
   void check() const {
     check_fields(tube_);
     const std::size_t count = tube_.path.size();
-    if (count < (tube_.closed ? 3 : 2))
-      reject("path", tube_.closed ? "must have at least 3 points, as it is closed"
-                                  : "must have at least 2 points");
-    if (count > most_path_points)
-      throw Error(ErrorCode::limit, text::format("path has {} points; at most {} are possible",
-                                                 count, most_path_points));
+    check_path(tube_.path, tube_.closed);
     if (tube_.radii.size() != 1 && tube_.radii.size() != count)
       reject("radii", text::format("must be 1, or as many as there are points: {}, not {}", count,
                                    tube_.radii.size()));
-    for (const Vec3& point : tube_.path) check_coordinates("path", point);
     for (const double radius : tube_.radii) check_number("radii", schema::length_or_zero, radius);
-    for (std::size_t i = 0; i + (tube_.closed ? 0 : 1) < count; ++i) {
-      if (!(largest_component(point(i + 1) - point(i)) >= smallest_length))
-        reject("path", text::format("stands still at point {}", i));
-    }
   }
 
   const Vec3& point(std::size_t i) const { return tube_.path[i % tube_.path.size()]; }

@@ -33,10 +33,10 @@ struct TriangleRule {
   static constexpr std::size_t count = 12;
   using Places = std::array<double, count>;  ///< has a number for each
 
-  Places weights;
-  std::array<Places, 3> shares;  ///< of the corners
+  Places weights{};
+  std::array<Places, 3> shares{};  ///< of the corners
 
-  constexpr TriangleRule() : weights{}, shares{} {
+  constexpr TriangleRule() {
     std::size_t place = 0;
     const auto add = [&](double weight, double a, double b, double c) {
       for (int turn = 0; turn < 3; ++turn, ++place) {
