@@ -560,8 +560,8 @@ typedef struct crt_settings {
   /** Not 0: the finished picture is freed of noise, and nothing is claimed of its accuracy. Default
    * 0. Since 1.1. */
   int32_t denoise;
-  int32_t unit; /**< a crt_unit: what a scene unit is, which neither the geometry nor the picture
-                   knows; default CRT_UNIT_M. Since 1.1. */
+  int32_t unit;   /**< a crt_unit: what a scene unit is, which neither the geometry nor the picture
+                     knows; default CRT_UNIT_M. Since 1.1. */
   int32_t frames; /**< of an animation, t = 0 to frames - 1, in [0, 1000000]; default 0: not said.
                      Since 1.1. */
   int32_t reserved_4; /**< must be 0 */

@@ -237,8 +237,8 @@ class SweptPath {
     const Corner& at = corners_[i];
     if (!at.has_bend) return;
     // The revolution starts along its z, and turns towards its x.
-    constexpr double most_beyond = 0.01;
-    const double beyond = std::min(most_beyond, 0.25 * (std::numbers::pi - at.angle()));
+    // Its own ends are well beyond the planes, so that few cells of measures have both.
+    const double beyond = 0.25 * (std::numbers::pi - at.angle());
     const Vec3 start =
         -at.inwards * elementary::cos(beyond) - frame.along * elementary::sin(beyond);
     const Vec3 onwards =

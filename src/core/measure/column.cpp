@@ -98,7 +98,8 @@ class Column {
       const ColumnWall& wall = faces_.walls[segment.wall];
       if (!look_.faces[wall.face].is_surface) continue;
       const double length = length_of(segment);
-      const auto is_surface_of_wall = [&](std::uint32_t m) { return is_surface(wall, m); };
+      const std::uint32_t surface = surface_of_wall(look_, wall);
+      const auto is_surface_of_wall = [&](std::uint32_t m) { return (surface >> m & 1U) != 0; };
       for_each_level(segment.at(0.5), segment.negative, is_surface_of_wall,
                      [&](std::size_t level, bool below, bool above) {
                        if (below == above) return;
@@ -188,39 +189,27 @@ class Column {
       return area_in_doubt(line.function, line.error) * part.size * part.size;
     }
   };
-  /// Returns whether a wall is surface of the solid where some faces are negative.
-  bool is_surface(const ColumnWall& wall, std::uint32_t negative) const {
-    const std::uint32_t bit = 1U << wall.face;
-    return look_.faces[wall.face].is_surface &&
-           look_.is_inside(negative | bit) != look_.is_inside(negative & ~bit);
-  }
-  /// Returns whether it may matter which of two levels is above the other, in the column or along
-  /// its walls.
+  /// Returns whether it may matter which of two levels is above the other.
   bool may_matter(std::size_t lower, std::size_t upper) const {
     const std::size_t last = levels_.size() - 1;
     if (lower == 0 || upper == last) return lower > 0 || upper < last;
-    const auto may_matter_to = [&](const auto& is_inside) {
-      return may_matter_of(faces_.heights[lower - 1], faces_.heights[upper - 1], is_inside);
-    };
-    if (may_matter_to([&](std::uint32_t m) { return look_.is_inside(m); })) return true;
-    return question_.with_area && std::ranges::any_of(faces_.walls, [&](const ColumnWall& wall) {
-             return may_matter_to([&](std::uint32_t m) { return is_surface(wall, m); });
-           });
+    return order_matters(look_, look_.inside, faces_.heights[lower - 1], faces_.heights[upper - 1]);
   }
-  /// Does so for any function of the faces that are negative. It does not matter of two faces of
-  /// which another says which of them counts.
-  template <class Inside>
-  bool may_matter_of(const ColumnHeight& one, const ColumnHeight& other,
-                     const Inside& is_inside) const {
-    const std::uint32_t a = 1U << one.face;
-    const std::uint32_t b = 1U << other.face;
-    for (std::uint32_t m = 0; m < 1U << look_.faces.size(); ++m) {
-      if ((m & (a | b)) != 0) continue;
-      const auto differ = [&](std::uint32_t x, std::uint32_t y) {
-        return is_inside(m | x) != is_inside(m | y);
-      };
-      if ((differ(0, a) || differ(b, a | b)) && (differ(0, b) || differ(a, a | b))) return true;
-    }
+  /// Returns whether it may matter for the area of walls alone. If the two are so near to each
+  /// other that it is little, that is added to what is not known.
+  bool may_matter_to_walls(std::size_t lower, std::size_t upper, const PatchSeries& difference) {
+    if (!question_.with_area || lower == 0 || upper == levels_.size() - 1) return false;
+    const auto is_any = std::ranges::any_of(faces_.walls, [&](const ColumnWall& wall) {
+      return order_matters(look_, surface_of_wall(look_, wall), faces_.heights[lower - 1],
+                           faces_.heights[upper - 1]);
+    });
+    if (!is_any) return false;
+    const double a = rounded_up(frame_.box.upper[frame_.a] - frame_.box.lower[frame_.a]);
+    const double b = rounded_up(frame_.box.upper[frame_.b] - frame_.box.lower[frame_.b]);
+    const double off =
+        static_cast<double>(faces_.walls.size()) * (a + b) * range_of(difference).magnitude();
+    if (off > question_.area_tolerance * (a * b)) return true;
+    wall_off_ += off * (1 + 0x1p-40);
     return false;
   }
   /// Cuts the square where walls are, and where levels cross.
@@ -228,7 +217,9 @@ class Column {
     std::vector<Crossing> crossings;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       for (std::size_t j = i + 1; j < levels_.size(); ++j) {
-        if (may_matter(i, j)) crossings.push_back({levels_[j] - levels_[i], i, j});
+        PatchSeries difference = levels_[j] - levels_[i];
+        if (may_matter(i, j) || may_matter_to_walls(i, j, difference))
+          crossings.push_back({std::move(difference), i, j});
       }
     }
     areas_in_doubt_.assign(levels_.size(), 0);

@@ -179,6 +179,29 @@ int column_axis_of(const CellLook& look, const Vec3& half) {
   return best;
 }
 
+std::uint32_t surface_of_wall(const CellLook& look, const ColumnWall& wall) {
+  std::uint32_t surface = 0;
+  const std::uint32_t bit = 1U << wall.face;
+  if (!look.faces[wall.face].is_surface) return surface;
+  for (std::uint32_t m = 0; m < 1U << look.faces.size(); ++m)
+    if (look.is_inside(m | bit) != look.is_inside(m & ~bit)) surface |= 1U << m;
+  return surface;
+}
+
+bool order_matters(const CellLook& look, std::uint32_t table, const ColumnHeight& one,
+                   const ColumnHeight& other) {
+  const std::uint32_t a = 1U << one.face;
+  const std::uint32_t b = 1U << other.face;
+  for (std::uint32_t m = 0; m < 1U << look.faces.size(); ++m) {
+    if ((m & (a | b)) != 0) continue;
+    const auto differ = [&](std::uint32_t x, std::uint32_t y) {
+      return (table >> (m | x) & 1U) != (table >> (m | y) & 1U);
+    };
+    if ((differ(0, a) || differ(b, a | b)) && (differ(0, b) || differ(a, a | b))) return true;
+  }
+  return false;
+}
+
 bool only_exchanges(const CellLook& look, const ColumnWall& wall, const ColumnHeight& one,
                     const ColumnHeight& other) {
   const std::uint32_t bit = 1U << wall.face;

@@ -68,6 +68,13 @@ PatchSeries slant_of(const CellSolid& solid, const CellLook& look, const ColumnF
 /// -1 if there is none.
 int column_axis_of(const CellLook& look, const Vec3& half);
 
+/// Returns a table of where a wall is surface of the solid, as CellLook::inside is one of where the
+/// solid is.
+std::uint32_t surface_of_wall(const CellLook& look, const ColumnWall& wall);
+/// Returns whether it may matter which of two heights is above the other for what a table says. It
+/// does not if another face says which of them counts.
+bool order_matters(const CellLook& look, std::uint32_t table, const ColumnHeight& one,
+                   const ColumnHeight& other);
 /// Returns whether a wall only says which of two heights is surface: on its sides the solid differs
 /// between them alone, and one of them always counts.
 bool only_exchanges(const CellLook& look, const ColumnWall& wall, const ColumnHeight& one,
