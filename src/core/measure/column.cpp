@@ -217,9 +217,9 @@ class Column {
     std::vector<Crossing> crossings;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       for (std::size_t j = i + 1; j < levels_.size(); ++j) {
-        PatchSeries difference = levels_[j] - levels_[i];
+        const PatchSeries difference = levels_[j] - levels_[i];
         if (may_matter(i, j) || may_matter_to_walls(i, j, difference))
-          crossings.push_back({std::move(difference), i, j});
+          crossings.push_back({difference, i, j});
       }
     }
     areas_in_doubt_.assign(levels_.size(), 0);
