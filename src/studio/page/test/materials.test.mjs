@@ -104,7 +104,8 @@ withMaterials('a material of the library has a ball where it is used, and can be
   await page.locator('.sheet h2', {hasText: 'PrincipledMaterial, a copy of ruby'}).waitFor();
   await ballBeside(page, ball);
   const inherited = await page.locator('.property.inherited label').allTextContents();
-  assert.deepEqual(inherited, ['color', 'refractiveindex', 'transmission', 'absorption']);
+  assert.deepEqual(inherited,
+                   ['color', 'refractiveindex', 'transmission', 'absorption', 'density']);
 });
 
 withMaterials('the braces of a derived material complete its attributes', async (page) => {
