@@ -1,3 +1,4 @@
+#include "core/entity/placed.hpp"
 #include "core/geometry/angles.hpp"
 #include "core/geometry/checks.hpp"
 #include "core/math/direction_and_length.hpp"
@@ -16,11 +17,7 @@ Entity extruded(const std::shared_ptr<const Profile>& profile, const Vec3& from,
     return upright.transformed({.translation = {from.x, from.y, 0}});
   }
   const double length = core::direction_and_length(to - from).length;
-  return Entity(Extrusion{.profile = profile, .from = 0, .to = length})
-      .transformed({.row_x = {x.x, y.x, z.x},
-                    .row_y = {x.y, y.y, z.y},
-                    .row_z = {x.z, y.z, z.z},
-                    .translation = from});
+  return core::placed(Extrusion{.profile = profile, .from = 0, .to = length}, x, y, z, from);
 }
 
 }  // namespace crt

@@ -9,11 +9,9 @@
 #include <utility>
 
 #include "core/geometry/checks.hpp"
-#include "core/math/exact_sides.hpp"
-#include "crt/error.hpp"
+#include "core/geometry/exact_sides.hpp"
 #include "crt/mesh.hpp"
 #include "crt/polyhedron.hpp"
-#include "text/format.hpp"
 
 namespace crt {
 
@@ -78,9 +76,7 @@ class HullFaces {
 }  // namespace core
 
 Hull::operator Entity() const {
-  if (points.size() > most_hull_points)
-    throw Error(ErrorCode::limit, text::format("the hull has {} points; at most {} are possible",
-                                               points.size(), most_hull_points));
+  core::check_count("the hull has", "points", points.size(), most_hull_points);
   for (const Vec3& point : points) core::check_coordinates("points", point);
   const core::HullFaces hull(points);
   return Mesh{.triangles = mesh_triangles(points, hull.faces()), .material = material};

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/geometry/checks.hpp"
-#include "core/math/exact_sides.hpp"
+#include "core/geometry/exact_sides.hpp"
 #include "crt/error.hpp"
 #include "crt/mesh.hpp"
 #include "text/format.hpp"

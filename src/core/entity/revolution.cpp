@@ -1,3 +1,4 @@
+#include "core/entity/placed.hpp"
 #include "core/geometry/angles.hpp"
 #include "core/geometry/checks.hpp"
 #include "crt/entity.hpp"
@@ -12,10 +13,7 @@ Entity revolved(const std::shared_ptr<const Profile>& profile, const Vec3& from,
   Entity upright = Revolution{.profile = profile, .angle = angle};
   const auto& [zero, quarter, along] = core::frame_about(to - from);
   if (along == Vec3(0, 1, 0) && from == Vec3(0)) return upright;
-  return upright.transformed({.row_x = {quarter.x, along.x, zero.x},
-                              .row_y = {quarter.y, along.y, zero.y},
-                              .row_z = {quarter.z, along.z, zero.z},
-                              .translation = from});
+  return core::placed(upright, quarter, along, zero, from);
 }
 
 }  // namespace crt

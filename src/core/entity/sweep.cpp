@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "core/entity/path.hpp"
+#include "core/entity/placed.hpp"
 #include "core/geometry/check_fields.hpp"
 #include "core/geometry/profile_contours.hpp"
 #include "core/math/vector.hpp"
 #include "crt/elementary.hpp"
-#include "crt/error.hpp"
 #include "crt/schema_primitives.hpp"
 #include "text/format.hpp"
 
@@ -98,16 +98,11 @@ class SweptPath {
     std::size_t corners = 0;
     for (const Contour& contour : contours_of(*sweep_.profile)) corners += contour.size();
     constexpr std::size_t most_corners = std::size_t{1} << 20;
-    if (corners * sweep_.path.size() > most_corners)
-      throw Error(ErrorCode::limit,
-                  text::format("the bends have {} corners of profiles; at most {} are possible",
-                               corners * sweep_.path.size(), most_corners));
+    check_count("the bends have", "corners of profiles", corners * sweep_.path.size(),
+                most_corners);
   }
 
   const Vec3& point(std::size_t i) const { return sweep_.path[i % sweep_.path.size()]; }
-  [[noreturn]] static void reject_point(std::size_t i, std::string_view rule) {
-    reject("path", text::format("{} at point {}", rule, i));
-  }
 
   void find_lines() {
     const std::size_t count = sweep_.path.size() - (sweep_.closed ? 0 : 1);
@@ -128,7 +123,8 @@ class SweptPath {
     Corner corner{.place = point(i), .cosine = glm::dot(before, after)};
     corner.sine = glm::length(across);
     constexpr double of_180_degrees = 0.0017;  // as a sine, to 0.1 degrees
-    if (corner.cosine < 0 && corner.sine < of_180_degrees) reject_point(i, "turns straight back");
+    if (corner.cosine < 0 && corner.sine < of_180_degrees)
+      reject("path", text::format("turns straight back at point {}", i));
     constexpr double straight = 0x1p-40;
     const Vec3 halfway = glm::normalize(before + after);
     corner.before = {.normal = halfway, .position = corner.place};
@@ -168,14 +164,6 @@ class SweptPath {
     Vec3 y = corner.turned(frame.y);
     y = glm::normalize(y - glm::dot(y, along) * along);
     return {glm::cross(y, along), y, along};
-  }
-
-  static Entity placed(Entity entity, const Vec3& x, const Vec3& y, const Vec3& z,
-                       const Vec3& origin) {
-    return entity.transformed({.row_x = {x.x, y.x, z.x},
-                               .row_y = {x.y, y.y, z.y},
-                               .row_z = {x.z, y.z, z.z},
-                               .translation = origin});
   }
 
   bool has_corner(std::size_t i) const { return sweep_.closed || (i > 0 && i < lines_.size()); }

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/entity/placed.hpp"
 #include "core/geometry/angles.hpp"
 #include "core/geometry/check_fields.hpp"
 #include "crt/field.hpp"
@@ -52,11 +53,8 @@ Implicit upright(double diameter, double length, bool is_left) {
 Thread::operator Entity() const {
   check(*this);
   const auto& [zero, quarter, along] = core::frame_about(to - from);
-  const Entity solid = Entity(upright(diameter / pitch, glm::length(to - from) / pitch, left))
-                           .transformed({.row_x = pitch * Vec3(zero.x, quarter.x, along.x),
-                                         .row_y = pitch * Vec3(zero.y, quarter.y, along.y),
-                                         .row_z = pitch * Vec3(zero.z, quarter.z, along.z),
-                                         .translation = from});
+  const Entity solid = core::placed(upright(diameter / pitch, glm::length(to - from) / pitch, left),
+                                    pitch * zero, pitch * quarter, pitch * along, from);
   return material ? solid.with_material(*material) : solid;
 }
 

@@ -90,6 +90,13 @@ void check_vector(std::string_view argument, const schema::Rule& rule, const Vec
   if (rule.kind == corner) check_corner(argument, other, value, rule.other);
 }
 
+void check_count(std::string_view subject, std::string_view things, std::size_t count,
+                 std::size_t most) {
+  if (count > most)
+    throw Error(ErrorCode::limit,
+                text::format("{} {} {}; at most {} are possible", subject, count, things, most));
+}
+
 void check_made(std::string_view argument, const schema::Rule& rule, bool is_there) {
   if (!is_there) reject(argument, text::format("must be given (see {})", rule.other));
 }

@@ -35,6 +35,11 @@ void check_number(std::string_view argument, const schema::Rule& rule, double va
 void check_vector(std::string_view argument, const schema::Rule& rule, const Vec3& value,
                   const Vec3& other);
 
+/// Checks that there are at most so many of what a subject has ("path has", "points"). Throws Error
+/// (limit).
+void check_count(std::string_view subject, std::string_view things, std::size_t count,
+                 std::size_t most);
+
 /// Checks that something is there, which the function that the rule names makes.
 void check_made(std::string_view argument, const schema::Rule& rule, bool is_there);
 

@@ -127,7 +127,7 @@ class CutCell {
         axis = i;
     }
     const Interval& steep = face.slopes[static_cast<std::size_t>(axis)];
-    if (steep.contains(0)) return {0, most_area(face)};
+    if (steep.contains(0)) return {0, most_area_of_face(solid_, box_, face)};
     const int a = (axis + 1) % 3;
     const int b = (axis + 2) % 3;
     std::vector<FlatTriangle> plane;
@@ -153,7 +153,7 @@ class CutCell {
     const Interval scale = side_of(box_, a) * side_of(box_, b) * Interval::of(0.25);
     const Interval slant = root(squared_length(face.slopes)) / (steep.lo > 0 ? steep : -steep);
     const Interval result = square_seen * scale * slant;
-    return {std::max(0.0, result.lo), std::min(result.hi, most_area(face))};
+    return {std::max(0.0, result.lo), std::min(result.hi, most_area_of_face(solid_, box_, face))};
   }
 
  private:
@@ -208,8 +208,6 @@ class CutCell {
            seen_area(above, own, face + 1, negative, axis);
   }
 
-  double most_area(const CellFace& face) const { return most_area_of_face(solid_, box_, face); }
-
   const CellSolid& solid_;
   const Bounds& box_;
   CellFrame frame_;
@@ -255,6 +253,7 @@ CellMass mass_of(const CellSolid& solid, const Bounds& box, const CellLook& look
     return result;
   }
   if (std::optional<CellMass> column = column_mass(solid, box, look, question)) {
+    if (!question.with_area) return *column;
     double most = 0;
     for (const CellFace& face : look.faces) most += most_area_of_face(solid, box, face);
     Interval& area = column->part.area;

@@ -98,8 +98,9 @@ class Column {
       const ColumnWall& wall = faces_.walls[segment.wall];
       if (!look_.faces[wall.face].is_surface) continue;
       const double length = length_of(segment);
-      const std::uint32_t surface = surface_of_wall(look_, wall);
-      const auto is_surface_of_wall = [&](std::uint32_t m) { return (surface >> m & 1U) != 0; };
+      const auto is_surface_of_wall = [&](std::uint32_t m) {
+        return (wall.surface >> m & 1U) != 0;
+      };
       for_each_level(segment.at(0.5), segment.negative, is_surface_of_wall,
                      [&](std::size_t level, bool below, bool above) {
                        if (below == above) return;
@@ -197,17 +198,17 @@ class Column {
   }
   /// Returns whether it may matter for the area of walls alone. If the two are so near to each
   /// other that it is little, that is added to what is not known.
-  bool may_matter_to_walls(std::size_t lower, std::size_t upper, const PatchSeries& difference) {
+  bool may_matter_to_walls(std::size_t lower, std::size_t upper) {
     if (!question_.with_area || lower == 0 || upper == levels_.size() - 1) return false;
     const auto is_any = std::ranges::any_of(faces_.walls, [&](const ColumnWall& wall) {
-      return order_matters(look_, surface_of_wall(look_, wall), faces_.heights[lower - 1],
+      return order_matters(look_, wall.surface, faces_.heights[lower - 1],
                            faces_.heights[upper - 1]);
     });
     if (!is_any) return false;
     const double a = rounded_up(frame_.box.upper[frame_.a] - frame_.box.lower[frame_.a]);
     const double b = rounded_up(frame_.box.upper[frame_.b] - frame_.box.lower[frame_.b]);
-    const double off =
-        static_cast<double>(faces_.walls.size()) * (a + b) * range_of(difference).magnitude();
+    const double off = static_cast<double>(faces_.walls.size()) * (a + b) *
+                       range_of(levels_[upper] - levels_[lower]).magnitude();
     if (off > question_.area_tolerance * (a * b)) return true;
     wall_off_ += off * (1 + 0x1p-40);
     return false;
@@ -217,9 +218,8 @@ class Column {
     std::vector<Crossing> crossings;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       for (std::size_t j = i + 1; j < levels_.size(); ++j) {
-        const PatchSeries difference = levels_[j] - levels_[i];
-        if (may_matter(i, j) || may_matter_to_walls(i, j, difference))
-          crossings.push_back({difference, i, j});
+        if (may_matter(i, j) || may_matter_to_walls(i, j))
+          crossings.push_back({levels_[j] - levels_[i], i, j});
       }
     }
     areas_in_doubt_.assign(levels_.size(), 0);

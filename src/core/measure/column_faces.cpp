@@ -27,6 +27,16 @@ bool is_wall(const CellFace& face, const Vec3& half, int axis) {
   return change <= straight * largest_component(face.slope);
 }
 
+/// Returns a table of where a face is surface of the solid.
+std::uint32_t surface_of(const CellLook& look, std::size_t face) {
+  std::uint32_t surface = 0;
+  const std::uint32_t bit = 1U << face;
+  if (!look.faces[face].is_surface) return surface;
+  for (std::uint32_t m = 0; m < 1U << look.faces.size(); ++m)
+    if (look.is_inside(m | bit) != look.is_inside(m & ~bit)) surface |= 1U << m;
+  return surface;
+}
+
 /// A HeightSearch finds the height of a face.
 class HeightSearch {
  public:
@@ -128,7 +138,8 @@ bool ColumnFaces::find(const CellSolid& solid, const CellLook& look, const Colum
     if (is_wall(face, frame.frame.half, frame.c)) {
       walls.push_back({i,
                        {face.value, {face.slope[frame.a], face.slope[frame.b], 0}},
-                       change_along(face, frame.c)});
+                       change_along(face, frame.c),
+                       surface_of(look, i)});
       continue;
     }
     if (face.slopes[at(frame.c)].contains(0) || !solid.functions(face.leaf).has_series())
@@ -177,15 +188,6 @@ int column_axis_of(const CellLook& look, const Vec3& half) {
     }
   }
   return best;
-}
-
-std::uint32_t surface_of_wall(const CellLook& look, const ColumnWall& wall) {
-  std::uint32_t surface = 0;
-  const std::uint32_t bit = 1U << wall.face;
-  if (!look.faces[wall.face].is_surface) return surface;
-  for (std::uint32_t m = 0; m < 1U << look.faces.size(); ++m)
-    if (look.is_inside(m | bit) != look.is_inside(m & ~bit)) surface |= 1U << m;
-  return surface;
 }
 
 bool order_matters(const CellLook& look, std::uint32_t table, const ColumnHeight& one,

@@ -21,6 +21,8 @@ struct ColumnWall {
   std::size_t face = 0;
   LinearFunction function;
   double error = 0;
+  /// Says where it is surface of the solid, as CellLook::inside does of where the solid is.
+  std::uint32_t surface = 0;
 };
 
 /// A ColumnFrame has the axes of a cell as a column along c has them: s runs along a, and t along
@@ -68,9 +70,6 @@ PatchSeries slant_of(const CellSolid& solid, const CellLook& look, const ColumnF
 /// -1 if there is none.
 int column_axis_of(const CellLook& look, const Vec3& half);
 
-/// Returns a table of where a wall is surface of the solid, as CellLook::inside is one of where the
-/// solid is.
-std::uint32_t surface_of_wall(const CellLook& look, const ColumnWall& wall);
 /// Returns whether it may matter which of two heights is above the other for what a table says. It
 /// does not if another face says which of them counts.
 bool order_matters(const CellLook& look, std::uint32_t table, const ColumnHeight& one,

@@ -39,11 +39,10 @@ struct TriangleRule {
   constexpr TriangleRule() {
     std::size_t place = 0;
     const auto add = [&](double weight, double a, double b, double c) {
-      for (int turn = 0; turn < 3; ++turn, ++place) {
+      const std::array<double, 3> of_corners = {a, b, c};
+      for (std::size_t turn = 0; turn < 3; ++turn, ++place) {
         weights[place] = weight;
-        shares[0][place] = turn == 0 ? a : (turn == 1 ? b : c);
-        shares[1][place] = turn == 0 ? b : (turn == 1 ? c : a);
-        shares[2][place] = turn == 0 ? c : (turn == 1 ? a : b);
+        for (std::size_t i = 0; i < 3; ++i) shares[i][place] = of_corners[(i + turn) % 3];
       }
     };
     add(0.116786275726379, 0.501426509658179, 0.249286745170910, 0.249286745170910);

@@ -11,7 +11,7 @@
 #include "core/geometry/canonical_plane.hpp"
 #include "core/geometry/checks.hpp"
 #include "core/geometry/profile_contours.hpp"
-#include "core/math/exact_sides.hpp"
+#include "core/geometry/exact_sides.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
 #include "text/format.hpp"
