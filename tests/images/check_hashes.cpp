@@ -1,11 +1,12 @@
-// Compares the hashes of example pictures and of queries' answers with those in hashes.txt, on
-// whatever machine this runs:
+// Compares the hashes of example pictures, of queries' answers and of measures with those in
+// hashes.txt, on whatever machine this runs:
 //   check_hashes [STEP [FIRST]]   takes every STEP-th example from that number on, all by default.
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 
+#include "images/example_pictures.hpp"
 #include "images/hashes.hpp"
 
 using namespace crt::tests;
@@ -15,12 +16,12 @@ int main(int argc, char** argv) try {
     return static_cast<std::size_t>(argc > place ? std::max(least, std::atoi(argv[place])) : least);
   };
   const std::size_t step = number(1, 1);
-  const Hashes known = read_hashes();
-  const std::vector<ExamplePicture> pictures = example_pictures();
+  const auto known = read_hashes();
+  const std::vector<HashSubject> subjects = hash_subjects();
   std::size_t compared = 0;
   std::size_t different = 0;
-  for (std::size_t i = number(2, 0); i < pictures.size(); i += step) {
-    for (const auto& [name, hash] : hashes_of(pictures[i])) {
+  for (std::size_t i = number(2, 0); i < subjects.size(); i += step) {
+    for (const auto& [name, hash] : subjects[i]()) {
       ++compared;
       const auto old = known.find(name);
       if (old != known.end() && old->second == hash) continue;

@@ -62,10 +62,14 @@ void add_pictures_of(const fs::path& script, std::vector<ExamplePicture>& pictur
 
 }  // namespace
 
+fs::path examples_path() {
+  return source_dir / "examples";
+}
+
 std::vector<ExamplePicture> example_pictures() {
   std::vector<ExamplePicture> pictures;
-  for (const char* folder : {"examples/scenes", "examples/tutorial"}) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(source_dir / folder)) {
+  for (const char* folder : {"scenes", "tutorial"}) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(examples_path() / folder)) {
       if (entry.path().extension() == ".crt") add_pictures_of(entry.path(), pictures);
     }
   }

@@ -18,6 +18,9 @@ struct ExamplePicture {
   ScriptOptions options{};
 };
 
+/// Returns the folder examples/.
+std::filesystem::path examples_path();
+
 /// Returns every picture of every script in examples/scenes and examples/tutorial, by name.
 std::vector<ExamplePicture> example_pictures();
 

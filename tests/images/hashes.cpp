@@ -1,16 +1,14 @@
 #include "images/hashes.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <crt/query.hpp>
 #include <crt/render.hpp>
-#include <cstdint>
-#include <cstring>
 #include <random>
-#include <span>
 
-#include "core/base/sha256.hpp"
+#include "images/example_pictures.hpp"
+#include "images/measured_solids.hpp"
+#include "images/number_bytes.hpp"
 
 namespace crt::tests {
 
@@ -43,34 +41,10 @@ std::vector<Ray> random_rays(const Camera& camera) {
   return rays;
 }
 
-class Bytes {
- public:
-  void add(double x) { add_word(std::bit_cast<std::uint64_t>(x)); }
-  void add(const Vec3& v) {
-    for (const double x : {v.x, v.y, v.z}) add(x);
-  }
-  void add(const Hit& hit) {
-    add(hit.t);
-    add(hit.position);
-    add(hit.normal);
-    add(hit.u);
-    add(hit.v);
-    add_word(2 * std::uint64_t{hit.entity_id} + (hit.entering ? 1 : 0));
-  }
-  void add_word(std::uint64_t word) {
-    for (int shift = 0; shift < 64; shift += 8)
-      bytes_.push_back(static_cast<std::byte>(word >> shift & 0xffu));
-  }
-  std::string hash() const { return core::sha256(bytes_); }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
 /// Asks for all crossings of each ray, for nearest hits of all together, and for blocked rays.
 std::string hash_of_queries(const PreparedScene& scene, const std::vector<Ray>& rays) {
   RayQueries queries(scene);
-  Bytes bytes;
+  NumberBytes bytes;
   std::vector<std::optional<Hit>> nearest(rays.size());
   queries.intersect(rays, nearest);
   std::vector<Hit> crossings;
@@ -85,10 +59,8 @@ std::string hash_of_queries(const PreparedScene& scene, const std::vector<Ray>& 
   return bytes.hash();
 }
 
-}  // namespace
-
-std::vector<std::pair<std::string, std::string>> hashes_of(const ExamplePicture& picture) {
-  std::vector<std::pair<std::string, std::string>> result;
+NamedHashes hashes_of(const ExamplePicture& picture) {
+  NamedHashes result;
   Scene scene = small_scene(picture);
   const std::vector<Ray> rays = random_rays(scene.camera);
   for (const auto& [precision, tier] :
@@ -99,6 +71,17 @@ std::vector<std::pair<std::string, std::string>> hashes_of(const ExamplePicture&
     result.emplace_back(picture.name + ":queries" + tier, hash_of_queries(prepared, rays));
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<HashSubject> hash_subjects() {
+  std::vector<HashSubject> subjects;
+  for (const ExamplePicture& picture : example_pictures())
+    subjects.push_back([picture] { return hashes_of(picture); });
+  for (const std::filesystem::path& script : measured_scripts())
+    subjects.push_back([script] { return hashes_of_measures(script); });
+  return subjects;
 }
 
 }  // namespace crt::tests

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "images/compare.hpp"
+#include "images/example_pictures.hpp"
 #include "images/hashes.hpp"
 
 using namespace crt;
@@ -26,10 +27,12 @@ int main() try {
     if (!known) fs::remove(entry.path());
   }
 
-  std::ofstream hashes(hashes_path());
+  {
+    std::ofstream hashes(hashes_path());
+    for (const HashSubject& subject : hash_subjects())
+      for (const auto& [name, hash] : subject()) hashes << hash << ' ' << name << '\n';
+  }
   for (const ExamplePicture& picture : pictures) {
-    for (const auto& [name, hash] : hashes_of(picture)) hashes << hash << ' ' << name << '\n';
-
     const Image image = render(prepare(small_scene(picture)));
     const std::string hash = pixel_hash(image);
     const fs::path path = reference_path(picture);
