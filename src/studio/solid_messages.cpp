@@ -41,9 +41,11 @@ json measures_json(const View& view, std::size_t entity, const std::function<boo
   const Entity& solid = view.original->entities.at(entity);
   const MeasureOptions options{
       .relative_width = width_of_measures, .seconds = most_seconds, .go_on = goes_on};
+  const Unit unit = view.original->settings.unit;
   json result = {{"entity", entity},
                  {"revision", view.revision.number},
-                 {"unit", schema::script_name_of(view.original->settings.unit)}};
+                 {"unit", schema::script_name_of(unit)},
+                 {"metres", metres_of(unit)}};
   const BoundingBox bounds = tight_bounding_box(solid, options);
   result["lower"] = bound_json(bounds.lower);
   result["upper"] = bound_json(bounds.upper);
@@ -56,6 +58,13 @@ json measures_json(const View& view, std::size_t entity, const std::function<boo
   } catch (const Error& error) {
     if (error.code() != ErrorCode::invalid_argument) throw;
     result["fault"] = error.what();
+  }
+  try {
+    if (const double of_materials = density(solid); of_materials > 0)
+      result["density"] = of_materials;
+  } catch (const Error& error) {
+    // Its parts have different ones.
+    if (error.code() != ErrorCode::invalid_argument) throw;
   }
   return result;
 }

@@ -10,7 +10,7 @@ SCENE = """Settings {
     width -> 32 height -> 24 unit -> "mm"
     camera -> Camera { position -> vec3(0, 0, -9) pointing -> vec3(0, 0, 0) }
 }
-red = Material { color -> rgb(1, 0.5, 0) }
+red = Material { color -> rgb(1, 0.5, 0) density -> 7850 }
 hole = Cylinder { from -> vec3(1, 1, -1) to -> vec3(1, 1, 2) radius -> 0.5 }
 Scene {
     Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(4, 2, 1) material -> red } - hole
@@ -53,7 +53,8 @@ class Solids(ViewedFolder):
         self.assertLess(high - low, 1e-3)
         low, high = measures["area"]
         self.assertTrue(low <= 28 - math.pi / 2 + math.pi <= high)
-        self.assertEqual(measures["unit"], "mm")
+        self.assertEqual((measures["unit"], measures["metres"]), ("mm", 0.001))
+        self.assertEqual(measures["density"], 7850)
         self.assertEqual(measures["entity"], 0)
         for found, truth in zip(measures["lower"] + measures["upper"], (0, 0, 0, 4, 2, 1)):
             self.assertAlmostEqual(found, truth, 3)

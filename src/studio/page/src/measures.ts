@@ -11,6 +11,9 @@ export interface MeasuresHost {
 /** The numbers wait for such a pause in typing and selecting. */
 const pauseMilliseconds = 300;
 
+/** This is the density of water, in kg per cubic metre, for what no material says. */
+const usualDensity = 1000;
+
 /** Writes the middle of an interval with the digits that are sure. */
 export function sureText([lower, upper]: Interval): string {
   if (lower === null || upper === null) return '?';
@@ -35,7 +38,7 @@ export class MeasuresSheet {
   constructor(private readonly host: MeasuresHost) {
     this.element.className = 'measures';
     this.element.setAttribute('aria-label', 'Measures');
-    this.density = input('number', 'Density', '1', () => this.drawMass());
+    this.density = input('number', 'Density', '', () => this.drawMass());
     this.density.min = '0';
     this.draw();
   }
@@ -45,7 +48,10 @@ export class MeasuresSheet {
     clearTimeout(this.timer);
     const isSame = span !== null && this.span !== null && span[0] === this.span[0];
     this.span = span;
-    if (!isSame) this.set(null);
+    if (!isSame) {
+      this.set(null);
+      this.density.value = '';
+    }
     if (span) this.timer = setTimeout(() => void this.ask(span), pauseMilliseconds);
   }
 
@@ -84,7 +90,8 @@ export class MeasuresSheet {
     if (centroid) this.add('Centroid', `${centroid.map(sureText).join(', ')} ${unit}`);
     if (!volume) return;
     const density = document.createElement('dd');
-    density.append(this.density, ` per ${unit}³`);
+    this.density.placeholder = String(measures.density ?? usualDensity);
+    density.append(this.density, ' kg/m³');
     this.add('Density', density);
     this.add('Mass', this.mass);
     this.drawMass();
@@ -106,12 +113,14 @@ export class MeasuresSheet {
   }
 
   private drawMass(): void {
-    const volume = this.measures?.volume;
-    const density = Number(this.density.value);
-    if (!volume || !(density >= 0)) return;
-    const [lower, upper] = volume;
-    this.mass.textContent = sureText([lower === null ? null : lower * density,
-                                      upper === null ? null : upper * density]);
+    if (!this.measures?.volume) return;
+    const {volume: [lower, upper], metres} = this.measures;
+    const density = Number(this.density.value || this.density.placeholder);
+    if (!(density >= 0)) return;
+    const scale = density * metres ** 3;
+    const mass = sureText([lower === null ? null : lower * scale,
+                           upper === null ? null : upper * scale]);
+    this.mass.textContent = `${mass} kg`;
   }
 }
 

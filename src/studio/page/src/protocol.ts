@@ -114,8 +114,10 @@ export interface Measures {
   entity: number;
   revision: number;
   unit: string;
+  metres: number;  // in a unit
   lower: (number | null)[];
   upper: (number | null)[];
+  density?: number;  // of its materials, in kg per cubic metre
   volume?: Interval;
   area?: Interval;
   centroid?: [Interval, Interval, Interval];

@@ -13,8 +13,10 @@ withPage('what is selected has its measures below its properties', async ({page}
   await measures(page).getByText('1 m³').waitFor();
   await measures(page).getByText('6 m²').waitFor();
   await measures(page).getByText('1 × 1 × 1 m').waitFor();
+  // No material says a density: water.
+  await measures(page).getByText('1000 kg', {exact: true}).waitFor();
   await page.getByLabel('Density').fill('7850');
-  await measures(page).getByText('7850', {exact: true}).waitFor();
+  await measures(page).getByText('7850 kg', {exact: true}).waitFor();
   await clickPicture(page, ...ball);
   await measures(page).getByText(/^1\.436/).waitFor();
   // A material has none.
