@@ -30,6 +30,13 @@ Transform scale(const Vec3& factors);
 /// about x takes y to z, about y takes z to x. Multiples of 90 degrees are exact.
 Transform rotate_degrees(const Vec3& degrees);
 
+/// Rotates about a line through the origin along `axis` (not 0, of any length) by so many degrees,
+/// in the same sense: about (0, 0, 1) as rotate_degrees({0, 0, degrees}) does.
+Transform rotate_degrees(const Vec3& axis, double degrees);
+
+/// Mirrors in the plane through the origin that is normal to `normal` (not 0, of any length).
+Transform mirror(const Vec3& normal);
+
 /// Is the name that rotate_degrees() has in version 1.0.
 [[deprecated("it takes degrees: call rotate_degrees()")]] inline Transform rotate(
     const Vec3& degrees) {

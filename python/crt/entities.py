@@ -114,6 +114,26 @@ class Entity(Handle):
         rotated = self._mapped(np.column_stack((about_z @ about_y @ about_x, np.zeros(3))))
         return rotated._made_by(self, "rotated", tuple(angles))
 
+    def rotated_about(
+        self, axis: Point, degrees: SupportsFloat, point: Point = (0, 0, 0)
+    ) -> "Entity":
+        """Rotates by degrees about a line through a point, in the sense of rotated."""
+        name = "rotated_about: "
+        along = _direction(axis, name + "axis")
+        angle = _arguments.number(degrees, name + "degrees", "a number")
+        (cosine, _, _), (sine, _, _), _ = _rotation(2, angle)
+        across = np.cross(np.eye(3), along)
+        linear = cosine * np.eye(3) + sine * across + (1 - cosine) * np.outer(along, along)
+        turned = self._mapped_about(linear, point, name + "point")
+        return turned._made_by(self, "rotated_about", tuple(axis), angle, tuple(point))
+
+    def mirrored(self, normal: Point, point: Point = (0, 0, 0)) -> "Entity":
+        """Mirrors in the plane through a point that is normal to a vector."""
+        along = _direction(normal, "mirrored: normal")
+        linear = np.eye(3) - 2 * np.outer(along, along)
+        image = self._mapped_about(linear, point, "mirrored: point")
+        return image._made_by(self, "mirrored", tuple(normal), tuple(point))
+
     def __add__(self, other: "Entity") -> "Entity":
         return union((self, other)) if isinstance(other, Entity) else NotImplemented
 
@@ -276,15 +296,25 @@ class Entity(Handle):
         numbers = (ctypes.c_double * 12)(*rows.ravel().tolist())
         return Entity._adopt(create("crt_entity_with_transform", self._handle, numbers))
 
-    def _made_by(self, source: "Entity", method: str, argument: Any) -> "Entity":
+    def _mapped_about(self, linear: NDArray[np.float64], point: Point, name: str) -> "Entity":
+        """Applies a linear map as if a point were the origin."""
+        center = np.array(_arguments.vector(point, name))[:, None]
+        away = self._mapped(np.hstack((np.eye(3), -center)))
+        mapped = away._mapped(np.hstack((linear, np.zeros((3, 1)))))
+        return mapped._mapped(np.hstack((np.eye(3), center)))
+
+    def _made_by(self, source: "Entity", method: str, *arguments: Any) -> "Entity":
         """Notes for the representation how this entity was made from another one."""
         self._source = source._source
-        self._calls = (*source._calls, (method, argument))[-MOST_CALLS - 1 :]
+        self._calls = (*source._calls, (method, arguments))[-MOST_CALLS - 1 :]
         return self
 
     def _expression(self) -> str:
         """Returns the calls that made it, as far as they are known."""
-        calls = [f".{name}({_arguments.written(value)})" for name, value in self._calls]
+        calls = [
+            f".{name}({', '.join(_arguments.written(one) for one in given)})"
+            for name, given in self._calls
+        ]
         if len(calls) > MOST_CALLS:
             calls[0] = " ... "
         if self._source is None:
@@ -346,6 +376,15 @@ def _handles(parts: list[Entity]) -> tuple[Any, int]:
     )
     array.references = references  # live as long as the array
     return array, len(references)
+
+
+def _direction(vector: Point, name: str) -> NDArray[np.float64]:
+    """Returns a vector's direction, of length 1."""
+    given = np.array(_arguments.vector(vector, name))
+    largest = np.abs(given).max()
+    if not 0 < largest < math.inf:
+        raise ValueError(f"{name} must be finite and not 0")
+    return np.asarray(given / largest / np.linalg.norm(given / largest), np.float64)
 
 
 def _rotation(axis: int, degrees: float) -> NDArray[np.float64]:

@@ -60,6 +60,7 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %token SCALE "scale" TRANSLATE "translate" ROTATE "rotate"
 /* These are tokens of their own in few places, and names in all others. */
 %token MATERIAL "material" ID "id" MATRIX "matrix" SHADOW "shadow" VISIBLE "visible"
+%token MIRROR "mirror"
 %token ELIF "elif" RETURN "return" AS "as"
 %token TRUE "true" FALSE "false" WHILE "while" IF "if" ELSE "else" FOR "for" IN "in" IMPORT "import"
 
@@ -108,6 +109,7 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %nterm <std::vector<NamePlace>> names
 %nterm <std::vector<Modifier>> modifiers
 %nterm <Modifier> modifier
+%nterm <ModifierKind> modifier_kind
 %nterm <BinaryOperator> comparison_operator assignment_operator
 /* This stands after each opening of something that can hold itself, and lives as long as that is
    open. */
@@ -276,16 +278,21 @@ modifiers:
 
 /* The operand is an arithmetic expression, so that '>' always closes the list. */
 modifier:
-    "scale" arithmetic                       { $$ = {ModifierKind::scale, $2}; }
-  | "translate" arithmetic                   { $$ = {ModifierKind::translate, $2}; }
-  | "rotate" arithmetic                      { $$ = {ModifierKind::rotate, $2}; }
-  | "material" arithmetic                    { $$ = {ModifierKind::material, $2}; }
-  | "id" arithmetic                          { $$ = {ModifierKind::id, $2}; }
-  | "matrix" arithmetic                      { $$ = {ModifierKind::matrix, $2}; }
-  | "shadow" arithmetic                      { $$ = {ModifierKind::shadow, $2}; }
-  | "visible" arithmetic                     { $$ = {ModifierKind::visible, $2}; }
-  | IDENTIFIER arithmetic                    { tree.unknown_modifier(@1);
-                                               $$ = {ModifierKind::scale, $2}; }
+    modifier_kind arithmetic                 { $$ = {.kind = $1, .operand = $2}; }
+  | modifier IDENTIFIER arithmetic           { $$ = tree.modifier_with($1, @2, $3); }
+
+modifier_kind:
+    "scale"                                  { $$ = ModifierKind::scale; }
+  | "translate"                              { $$ = ModifierKind::translate; }
+  | "rotate"                                 { $$ = ModifierKind::rotate; }
+  | "mirror"                                 { $$ = ModifierKind::mirror; }
+  | "matrix"                                 { $$ = ModifierKind::matrix; }
+  | "material"                               { $$ = ModifierKind::material; }
+  | "id"                                     { $$ = ModifierKind::id; }
+  | "shadow"                                 { $$ = ModifierKind::shadow; }
+  | "visible"                                { $$ = ModifierKind::visible; }
+  | IDENTIFIER                               { tree.unknown_modifier(@1);
+                                               $$ = ModifierKind::scale; }
 
 open_list: "[" | "[ first on its line"
 

@@ -163,6 +163,7 @@ class Interpreter {
   std::vector<Given> evaluate_attributes(const ObjectType& type,
                                          const std::vector<AttributeSyntax>& attributes);
   Entity modify(const Entity& entity, const Modifier& modifier);  // modify.cpp
+  std::optional<Vec3> vector_after(std::string_view word, const Expression* operand);
   void note_material(const Entity& entity, Span span);
   [[noreturn]] void unknown_name(Symbol name, Span span) const;
   std::string hint_of_library(std::string_view name) const;

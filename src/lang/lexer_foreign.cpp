@@ -41,10 +41,10 @@ std::string_view object_of(std::string_view small_name) {
 }  // namespace
 
 bool is_foreign_modifier(std::string_view word) {
-  constexpr std::array<std::string_view, 18> others = {
-      "move",   "turn",  "shift", "spin",   "resize",    "transform",
-      "mirror", "flip",  "color", "colour", "texture",   "pigment",
-      "finish", "shear", "skew",  "hidden", "invisible", "no_shadow"};
+  constexpr std::array<std::string_view, 17> others = {
+      "move",  "turn",  "shift",  "spin",      "resize",   "transform",
+      "flip",  "color", "colour", "texture",   "pigment",  "finish",
+      "shear", "skew",  "hidden", "invisible", "no_shadow"};
   const std::string small = text::in_small_letters(word);
   if (contains(others, small)) return true;
   for (const std::string_view known : {"rotate", "scale", "translate"}) {

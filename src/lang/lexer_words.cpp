@@ -25,7 +25,7 @@ struct Word {
 constexpr std::array modifier_words = {
     Word{"material", Terminal::MATERIAL}, Word{"id", Terminal::ID},
     Word{"matrix", Terminal::MATRIX},     Word{"shadow", Terminal::SHADOW},
-    Word{"visible", Terminal::VISIBLE},
+    Word{"visible", Terminal::VISIBLE},   Word{"mirror", Terminal::MIRROR},
 };
 
 }  // namespace

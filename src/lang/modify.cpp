@@ -12,9 +12,7 @@
 
 namespace crt::lang {
 
-namespace {
-
-const char* name_of(ModifierKind kind) {
+std::string_view word_of(ModifierKind kind) {
   switch (kind) {
     case ModifierKind::scale:
       return "scale";
@@ -22,12 +20,14 @@ const char* name_of(ModifierKind kind) {
       return "translate";
     case ModifierKind::rotate:
       return "rotate";
+    case ModifierKind::mirror:
+      return "mirror";
+    case ModifierKind::matrix:
+      return "matrix";
     case ModifierKind::material:
       return "material";
     case ModifierKind::id:
       return "id";
-    case ModifierKind::matrix:
-      return "matrix";
     case ModifierKind::shadow:
       return "shadow";
     case ModifierKind::visible:
@@ -36,19 +36,23 @@ const char* name_of(ModifierKind kind) {
   return "";
 }
 
+namespace {
+
 const char* what_it_takes(ModifierKind kind) {
   switch (kind) {
     case ModifierKind::scale:
       return "a number or a Vec3";
     case ModifierKind::translate:
-    case ModifierKind::rotate:
+    case ModifierKind::mirror:
       return "a Vec3";
+    case ModifierKind::rotate:
+      return "a Vec3 of degrees, or a number with an 'axis'";
+    case ModifierKind::matrix:
+      return "a List of 12 numbers, or of three rows of 4";
     case ModifierKind::material:
       return "a Material";
     case ModifierKind::id:
       return "an Integer";
-    case ModifierKind::matrix:
-      return "a List of 12 numbers, or of three rows of 4";
     case ModifierKind::shadow:
     case ModifierKind::visible:
       return "a Boolean";
@@ -57,7 +61,7 @@ const char* what_it_takes(ModifierKind kind) {
 }
 
 [[noreturn]] void wrong_type(const Modifier& modifier, const Value& operand) {
-  fail(modifier.operand->span, "'{}' takes {}, not {}", name_of(modifier.kind),
+  fail(modifier.operand->span, "'{}' takes {}, not {}", word_of(modifier.kind),
        what_it_takes(modifier.kind), operand);
 }
 
@@ -112,7 +116,8 @@ class MatrixReader {
 };
 
 /// Returns the map of a modifier that moves, or nothing for an operand of the wrong type.
-std::optional<Transform> transform_of(const Modifier& modifier, const Value& operand) {
+std::optional<Transform> transform_of(const Modifier& modifier, const Value& operand,
+                                      const std::optional<Vec3>& axis) {
   const auto* vector = std::get_if<Vec3>(&operand);
   const auto* list = std::get_if<List>(&operand);
   double storage = 0;
@@ -126,7 +131,11 @@ std::optional<Transform> transform_of(const Modifier& modifier, const Value& ope
       if (vector) return translate(*vector);
       return std::nullopt;
     case ModifierKind::rotate:
-      if (vector) return rotate_degrees(*vector);
+      if (vector && !axis) return rotate_degrees(*vector);
+      if (number && axis) return rotate_degrees(*axis, *number);
+      return std::nullopt;
+    case ModifierKind::mirror:
+      if (vector) return mirror(*vector);
       return std::nullopt;
     case ModifierKind::matrix:
       if (list) return MatrixReader(modifier).read(**list);
@@ -147,7 +156,17 @@ std::uint32_t id_of(const Modifier& modifier, std::int64_t number) {
   return static_cast<std::uint32_t>(number);
 }
 
-Entity modified(const Entity& entity, const Modifier& modifier, const Value& operand) {
+/// Returns an entity moved as if `about` were the origin, if that is given.
+Entity moved_about(const Entity& entity, const Transform& transform,
+                   const std::optional<Vec3>& about) {
+  if (!about) return entity.transformed(transform);
+  return entity.transformed(translate(-*about))
+      .transformed(transform)
+      .transformed(translate(*about));
+}
+
+Entity modified(const Entity& entity, const Modifier& modifier, const Value& operand,
+                const std::optional<Vec3>& axis, const std::optional<Vec3>& about) {
   if (modifier.kind == ModifierKind::material) {
     if (const auto* material = std::get_if<SharedMaterial>(&operand))
       return entity.with_material(*material);
@@ -158,28 +177,42 @@ Entity modified(const Entity& entity, const Modifier& modifier, const Value& ope
     const auto* yes = std::get_if<bool>(&operand);
     if (yes && modifier.kind == ModifierKind::shadow) return entity.with_shadow(*yes);
     if (yes) return entity.with_visible(*yes);
-  } else if (const std::optional<Transform> transform = transform_of(modifier, operand)) {
-    return entity.transformed(*transform);
+  } else if (const std::optional<Transform> transform = transform_of(modifier, operand, axis)) {
+    return moved_about(entity, *transform, about);
   }
   wrong_type(modifier, operand);
 }
 
 }  // namespace
 
+/// Returns the vector that follows a word of a modifier, if it is there.
+std::optional<Vec3> Interpreter::vector_after(std::string_view word, const Expression* operand) {
+  if (!operand) return std::nullopt;
+  const Value value = evaluate(*operand);
+  if (const auto* vector = std::get_if<Vec3>(&value)) return *vector;
+  fail(operand->span, "'{}' takes a Vec3, not {}", word, value);
+}
+
 [[gnu::noinline]] Entity Interpreter::modify(const Entity& entity, const Modifier& modifier) {
   const Value operand = evaluate(*modifier.operand);
+  const std::optional<Vec3> axis = vector_after("axis", modifier.axis);
+  const std::optional<Vec3> about = vector_after("about", modifier.about);
   context_.count_made(modifier.operand->span);
   if (modifier.kind == ModifierKind::material && std::holds_alternative<SharedMaterial>(operand))
     note_material(entity, modifier.operand->span);
   try {
-    return modified(entity, modifier, operand);
+    return modified(entity, modifier, operand, axis, about);
   } catch (const Error& error) {
     std::string message = error.what();
     // The core names the parameter of its function, which in a script is the modifier itself.
     std::string_view argument = error.argument();
+    if (argument == "axis")
+      throw Failure{.span = modifier.axis->span,
+                    .message = "'axis'" + message.substr(4),
+                    .code = error.code()};
     if (modifier.kind == ModifierKind::matrix) argument = "a transform";
     if (message.starts_with(argument))
-      message.replace(0, argument.size(), text::format("'{}'", name_of(modifier.kind)));
+      message.replace(0, argument.size(), text::format("'{}'", word_of(modifier.kind)));
     throw Failure{.span = modifier.operand->span, .message = message, .code = error.code()};
   }
 }

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -158,12 +160,21 @@ struct Call {
   std::size_t unnamed() const { return arguments.size() - names.size(); }
 };
 
-enum class ModifierKind { scale, translate, rotate, material, id, matrix, shadow, visible };
+enum class ModifierKind { scale, translate, rotate, mirror, matrix, material, id, shadow, visible };
 
-/// A Modifier is scale, translate, rotate (rules 30 to 32) or another of these with its operand.
+/// Returns the word that a modifier begins with.
+std::string_view word_of(ModifierKind kind);
+
+/// A Modifier is scale, translate, rotate (rules 30 to 32) or another of these with its operand:
+/// rotate 45 axis v about p.
 struct Modifier {
   ModifierKind kind = ModifierKind::scale;
   const Expression* operand = nullptr;
+  const Expression* axis = nullptr;   ///< null if it is not said
+  const Expression* about = nullptr;  ///< likewise
+
+  /// Returns all that are said.
+  std::array<const Expression*, 3> operands() const { return {operand, axis, about}; }
 };
 
 /// Modified is base <modifiers> (rule 11).

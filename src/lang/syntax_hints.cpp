@@ -52,8 +52,7 @@ std::string_view modifier_hint(std::string_view word) {
     return "; 'scale' takes all three factors: <scale vec3(1, 2, 1)>";
   if (begins("translate", "Translate") || word == "move" || word == "shift")
     return "; 'translate' takes all three offsets: <translate vec3(1, 0, 0)>";
-  if (word == "mirror" || word == "flip")
-    return "; to mirror is to scale by -1: <scale vec3(-1, 1, 1)>";
+  if (word == "flip") return "; 'mirror' takes the normal of a plane: <mirror vec3(1, 0, 0)>";
   if (word == "shear" || word == "skew")
     return "; 'matrix' does that: <matrix [[1, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]>";
   if (std::find(looks.begin(), looks.end(), word) != looks.end())
@@ -61,8 +60,8 @@ std::string_view modifier_hint(std::string_view word) {
   if (word == "no_shadow") return "; 'shadow' takes a Boolean: <shadow false>";
   if (word == "hidden" || word == "invisible")
     return "; 'visible' takes a Boolean: <visible false>";
-  return "; there are 'scale', 'translate', 'rotate', 'material', 'id', 'matrix', 'shadow' and "
-         "'visible'";
+  return "; there are 'scale', 'translate', 'rotate', 'mirror', 'matrix', 'material', 'id', "
+         "'shadow' and 'visible'";
 }
 
 }  // namespace
@@ -70,6 +69,33 @@ std::string_view modifier_hint(std::string_view word) {
 void TreeBuilder::unknown_modifier(Span name) {
   const std::string_view word = lexer_.text(name);
   reporter_.error(name, text::format("there is no modifier '{}'{}", word, modifier_hint(word)));
+}
+
+Modifier TreeBuilder::modifier_with(const Modifier& modifier, Span name,
+                                    const Expression* operand) {
+  const std::string_view word = lexer_.text(name);
+  const bool is_axis = word == "axis";
+  if (!is_axis && word != "about") {
+    reporter_.error(name,
+                    text::format("'{}' takes nothing that is called '{}'; there are 'axis', of "
+                                 "'rotate', and 'about'",
+                                 word_of(modifier.kind), word));
+    return modifier;
+  }
+  const bool may_have_it =
+      is_axis ? modifier.kind == ModifierKind::rotate
+              : modifier.kind == ModifierKind::rotate || modifier.kind == ModifierKind::scale ||
+                    modifier.kind == ModifierKind::mirror || modifier.kind == ModifierKind::matrix;
+  Modifier result = modifier;
+  const Expression*& place = is_axis ? result.axis : result.about;
+  if (!may_have_it) {
+    reporter_.error(name, text::format("'{}' takes no '{}'", word_of(modifier.kind), word));
+  } else if (place) {
+    reporter_.error(name, text::format("'{}' is said twice", word));
+  } else {
+    place = operand;
+  }
+  return result;
 }
 
 void TreeBuilder::refuse_default(Span equals) {

@@ -36,7 +36,9 @@ int height_of(const std::vector<AttributeSyntax>& attributes) {
 
 int height_of(const std::vector<Modifier>& modifiers) {
   int height = 0;
-  for (const Modifier& modifier : modifiers) height = std::max(height, height_of(modifier.operand));
+  for (const Modifier& modifier : modifiers)
+    for (const Expression* operand : modifier.operands())
+      if (operand) height = std::max(height, height_of(operand));
   return height;
 }
 

@@ -72,6 +72,8 @@ class TreeBuilder {
     return finish_statement(Statement{span, std::move(node)});
   }
   void unknown_modifier(Span name);
+  /// Returns a modifier with what follows its operand: `axis` or `about`.
+  Modifier modifier_with(const Modifier& modifier, Span name, const Expression* operand);
   void refuse_default(Span equals);
   Statement expression_statement(Span span, const Expression* expression);
   static If branch(If branches, const Expression* condition, Block body);

@@ -52,7 +52,9 @@ class TreeWalk {
   }
   void operator()(const Modified& modified) {
     derived().visit(modified.base);
-    for (const Modifier& modifier : modified.modifiers) derived().visit(modifier.operand);
+    for (const Modifier& modifier : modified.modifiers)
+      for (const Expression* operand : modifier.operands())
+        if (operand) derived().visit(operand);
   }
   void operator()(const Unary& unary) { derived().visit(unary.operand); }
   void operator()(const Chain& chain) {

@@ -25,28 +25,6 @@ const char* sign_of(lang::BinaryOperator op) {
                                                  : "";
 }
 
-const char* word_of(lang::ModifierKind kind) {
-  switch (kind) {
-    case lang::ModifierKind::scale:
-      return "scale";
-    case lang::ModifierKind::translate:
-      return "translate";
-    case lang::ModifierKind::rotate:
-      return "rotate";
-    case lang::ModifierKind::material:
-      return "material";
-    case lang::ModifierKind::id:
-      return "id";
-    case lang::ModifierKind::matrix:
-      return "matrix";
-    case lang::ModifierKind::shadow:
-      return "shadow";
-    case lang::ModifierKind::visible:
-      return "visible";
-  }
-  return "";
-}
-
 /// Walks over the whole tree and makes nodes of what is of interest.
 class TreeMaker : public lang::TreeWalk<TreeMaker> {
  public:
@@ -154,7 +132,7 @@ class TreeMaker : public lang::TreeWalk<TreeMaker> {
   void operator()(const lang::Modified& modified) {
     std::string words;
     for (const lang::Modifier& modifier : modified.modifiers)
-      words += (words.empty() ? "" : ", ") + std::string(word_of(modifier.kind));
+      words += (words.empty() ? "" : ", ") + std::string(lang::word_of(modifier.kind));
     const Inside inside(*this, NodeKind::placed, words, {modified.base->span.end, span_.end});
     TreeWalk::operator()(modified);
   }

@@ -54,6 +54,32 @@ TEST_CASE("every script of the library runs, and all together set each name once
   }
 }
 
+TEST_CASE("arrays have their copies where they are said to be") {
+  const crt::test::Run run = crt::test::run_statements(R"(
+    import "crt/arrays"
+    dot = Box { cornerA -> vec3(1, -1, -1) / 64 + vec3(2, 0, 0) cornerB -> vec3(2, 0, 0) }
+    places = Macro (group, points) { return [contains(group, p) for p in points] }
+    print(places(rowOf(dot, 3, vec3(1, 0, 0)), [vec3(x + 1 / 128.0, -1 / 128.0, -1 / 128.0)
+                                                for x in [1, 2, 3, 4, 5]]))
+    half = vec3(1, -1, -1) / 128
+    print(places(gridOf(dot, [2, 1, 3], [4, 1, 2]), [vec3(x, 0, z) + half
+                                                     for z in [0, 2, 4, 6] for x in [2, 6]]))
+    ball = Sphere { center -> vec3(2, 0, 0) radius -> 0.1 }
+    print(places(ringOf(ball, 4), [vec3(0, 0, 2), vec3(-2, 0, 0), vec3(0, 0, -2), vec3(0, 2, 0)]))
+    print(places(ringOf(ball, 3, axis -> vec3(0, 0, 1), about -> vec3(1, 0, 0), angle -> 180),
+                 [vec3(2, 0, 0), vec3(1, 1, 0), vec3(0, 0, 0), vec3(1, -1, 0)]))
+    print(places(mirrored(ball, about -> vec3(1, 0, 0)), [vec3(2, 0, 0), vec3(0, 0, 0)]))
+    rowOf(ball, 0, vec3(1, 0, 0)))");
+  CHECK(run.printed ==
+        std::vector<std::string>{"[false, true, true, true, false]",
+                                 "[true, true, true, true, true, true, false, false]",
+                                 "[true, true, true, false]", "[true, true, true, false]",
+                                 "[true, true]"});
+  REQUIRE(run.result.diagnostics.size() == 1);
+  CHECK(run.result.diagnostics[0].message.find("a row has at least one copy, not 0") !=
+        std::string::npos);
+}
+
 TEST_CASE("the reference lists the library: each script with all of its names") {
   const std::string text = reference();
   for (const crt::lang::LibraryScript& script : crt::lang::library()) {

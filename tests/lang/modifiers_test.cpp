@@ -120,3 +120,27 @@ TEST_CASE("a matrix moves as its rows say") {
   CHECK(crt::intersect(prepared, {.origin = {0, 1.4, -5}}));
   CHECK_FALSE(crt::intersect(prepared, {.origin = {1.4, 0, -5}}));
 }
+
+TEST_CASE("rotating about an axis and a point, and mirroring, are the maps that they name") {
+  const std::string box = "Box { cornerA -> vec3(0.1,0,0.2) cornerB -> vec3(0.5,0.8,0.3) } ";
+  const auto same = [&box](const std::string& modifiers, const std::string& others) {
+    CAPTURE(modifiers);
+    CHECK(pixels_of(box + "<" + modifiers + ">") == pixels_of(box + "<" + others + ">"));
+    CHECK(pixels_of(box + "<" + modifiers + ">") != pixels_of(box));
+  };
+  same("rotate 90 axis vec3(0, 5, 0)", "rotate vec3(0, 90, 0)");
+  same("rotate 180 axis vec3(-0.1, 0, 0)", "rotate vec3(180, 0, 0)");
+  same("mirror vec3(0, 3, 0)", "scale vec3(1, -1, 1)");
+  same("rotate 90 axis vec3(0, 0, 1) about vec3(0.5, 0.5, 0)",
+       "translate vec3(-0.5, -0.5, 0), rotate vec3(0, 0, 90), translate vec3(0.5, 0.5, 0)");
+  same("scale 0.5 about vec3(0.25, 0, 0)", "scale 0.5, translate vec3(0.125, 0, 0)");
+  same("matrix [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0] about vec3(0.5, 0, 0)",
+       "mirror vec3(1, 0, 0) about vec3(0.5, 0, 0)");
+}
+
+TEST_CASE("words of modifiers stay names elsewhere") {
+  CHECK(crt::test::run("mirror = 1 axis = 2 about = 3 print(axis < mirror, mirror < about) "
+                       "Scene { Sphere { center -> vec3(0,0,0) radius -> 1 }"
+                       "<rotate about * axis axis vec3(0, axis, 0) about vec3(0, about, 0)> }")
+            .ok());
+}

@@ -35,6 +35,33 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+TEST_CASE("a rotation about an axis turns by its angle, and a mirror's normal turns over") {
+  const auto moved = [](const crt::Transform& map, const crt::Vec3& p) {
+    return crt::Vec3(glm::dot(map.row_x, p), glm::dot(map.row_y, p), glm::dot(map.row_z, p));
+  };
+  const auto near = [](const crt::Vec3& a, const crt::Vec3& b) {
+    return glm::length(a - b) < 1e-14;
+  };
+  const crt::Vec3 axis(1, 2, -2);
+  const crt::Vec3 across(2, 1, 2);  // normal to it, and as long
+  const crt::Vec3 third = glm::cross(axis, across) / 3.0;
+  for (const double degrees : {30.0, 90.0, -75.0, 180.0, 400.0}) {
+    const crt::Transform map = crt::rotate_degrees(axis, degrees);
+    const double radians = degrees * 3.14159265358979323846 / 180;
+    CHECK(near(moved(map, axis), axis));
+    CHECK(near(moved(map, across), std::cos(radians) * across + std::sin(radians) * third));
+  }
+  CHECK(crt::rotate_degrees({0, 0, 1e-200}, 90) == crt::rotate_degrees({0, 0, 90}));
+  CHECK(crt::rotate_degrees({0, 1e200, 0}, 270) == crt::rotate_degrees({0, 270, 0}));
+  const crt::Transform map = crt::mirror(axis);
+  CHECK(near(moved(map, axis), -axis));
+  CHECK(near(moved(map, across), across));
+  CHECK(near(moved(map, third), third));
+  CHECK(crt::mirror({0, -7, 0}) == crt::scale({1, -1, 1}));
+  CHECK_THROWS_AS(crt::mirror({0, 0, 0}), crt::Error);
+  CHECK_THROWS_AS(crt::rotate_degrees({0, 0, 1}, std::nan("")), crt::Error);
+}
+
 TEST_CASE("translate and scale do what they say") {
   CHECK(apply(crt::translate({1, 2, 3}), {10, 20, 30}) == Vec3(11, 22, 33));
   CHECK(apply(crt::scale(2), {1, 2, 3}) == Vec3(2, 4, 6));

@@ -311,6 +311,25 @@ class Transforms(unittest.TestCase):
         self.assertGreater(np.isfinite(expected).sum(), 500)
         np.testing.assert_allclose(found, expected, rtol=1e-12)
 
+    def test_turning_about_a_line_and_mirroring_are_those_of_scripts(self):
+        box = "Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 2, 3) }"
+        here = crt.Box((0, 0, 0), (1, 2, 3))
+        made = here.rotated_about((1, 2, 3), 40, (1, 0, -1)).mirrored((1, 1, 0), (0, 2, 0))
+        self.assertIn(".rotated_about((1, 2, 3), 40, (1, 0, -1))", repr(made))
+        script = (
+            f"Scene {{ {box} <rotate 40 axis vec3(1, 2, 3) about vec3(1, 0, -1),"
+            " mirror vec3(1, 1, 0) about vec3(0, 2, 0)> }"
+        )
+        there = crt.Scene.from_script(script).entities[0]
+        expected, found = there.bounds, made.bounds
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
+        self.assertEqual(here.mirrored((0, 0, 9)).contains((0.5, 0.5, -0.5)), 1)
+        for vector in (0, 0, 0), (math.inf, 0, 0):
+            with self.assertRaisesRegex(ValueError, "normal must be"):
+                here.mirrored(vector)
+            with self.assertRaisesRegex(ValueError, "axis must be"):
+                here.rotated_about(vector, 30)
+
     def test_quarter_turns_are_exact(self):
         box = crt.Box((0.1, 0.2, 0.3), (1.7, 1.3, 1.1))
         turned = box.rotated((90, 0, 0)).rotated((270, 0, 0))

@@ -2,6 +2,7 @@
 
 #include <crt/elementary.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -60,6 +61,15 @@ SineCosine sine_cosine(double degrees) {
   }
 }
 
+/// Returns the direction of a vector, of length 1.
+Vec3 direction_of(const char* argument, const Vec3& vector) {
+  const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
+  if (!std::isfinite(vector.x + vector.y + vector.z)) fail(argument, "must be finite", vector);
+  if (largest == 0) fail(argument, "must not be 0", vector);
+  const Vec3 scaled = vector / largest;
+  return scaled / std::sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
+}
+
 }  // namespace
 
 Transform translate(const Vec3& offset) {
@@ -96,6 +106,30 @@ Transform rotate_degrees(const Vec3& degrees) {
   return {.row_x = {cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
           .row_y = {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
           .row_z = {-sy, cy * sx, cy * cx}};
+}
+
+Transform rotate_degrees(const Vec3& axis, double degrees) {
+  const Vec3 n = direction_of("axis", axis);
+  if (!std::isfinite(degrees)) fail("degrees", "must be finite", degrees);
+  const auto [sine, cosine] = sine_cosine(degrees);
+  // This is Rodrigues' formula.
+  const Vec3 cross_rows[] = {{0, -n.z, n.y}, {n.z, 0, -n.x}, {-n.y, n.x, 0}};
+  const auto row = [&, s = sine, c = cosine](int i) {
+    Vec3 result = (1 - c) * n[i] * n + s * cross_rows[i];
+    result[i] += c;
+    return result;
+  };
+  return {.row_x = row(0), .row_y = row(1), .row_z = row(2)};
+}
+
+Transform mirror(const Vec3& normal) {
+  const Vec3 n = direction_of("normal", normal);
+  const auto row = [&](int i) {
+    Vec3 result = -2 * n[i] * n;
+    result[i] += 1;
+    return result;
+  };
+  return {.row_x = row(0), .row_y = row(1), .row_z = row(2)};
 }
 
 }  // namespace crt
