@@ -858,6 +858,14 @@ typedef enum crt_fill_rule {
  */
 CRT_API crt_status crt_profile_svg_path(crt_profile* profile, const char* path, size_t length,
                                         int32_t fill, double deviation);
+/**
+ * Replaces the contours of a profile by those of a region that is larger all around by a distance,
+ * or smaller by one below 0, of which nothing may be left. Straight pieces move, arcs get another
+ * radius, and outer corners become arcs about them (inner ones, below 0). Begin a contour by
+ * crt_profile_move_to() before you add further pieces. Since 1.1.
+ * @param distance  in scene units
+ */
+CRT_API crt_status crt_profile_offset(crt_profile* profile, double distance);
 
 /** Lists where lines of text are, from x = 0 on. */
 typedef enum crt_text_alignment {

@@ -25,6 +25,7 @@
 #include <crt/measure.hpp>
 #include <crt/mesh.hpp>
 #include <crt/mesh_file.hpp>
+#include <crt/offset.hpp>
 #include <crt/pattern.hpp>
 #include <crt/polyhedron.hpp>
 #include <crt/prepared_scene.hpp>

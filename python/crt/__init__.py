@@ -55,7 +55,7 @@ from .primitives import (
     Triangle,
     Tube,
 )
-from .profiles import svg_path, text_contours
+from .profiles import offset_contours, svg_path, text_contours
 from .rays import (
     BACKFACE,
     ENTERING,
@@ -188,6 +188,7 @@ __all__ = [
     "live",
     "load_mesh",
     "mesh_report",
+    "offset_contours",
     "ray",
     "rays",
     "svg_path",

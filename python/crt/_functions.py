@@ -204,6 +204,7 @@ FUNCTIONS = {
         "int32_t fill",
         "double deviation",
     ),
+    "crt_profile_offset": ("crt_status", "crt_profile* profile", "double distance"),
     "crt_profile_text": (
         "crt_status",
         "crt_profile* profile",

@@ -309,37 +309,6 @@ class Capsule(_Primitive):
         self._make(material, id, start=start, end=end, radius=radius)
 
 
-def _contours(name: str, profile: Sequence[Any]) -> list[list[tuple[float, ...]]]:
-    """Returns the contours of a profile, which may be one or a sequence of several."""
-    wanted = (
-        "corners (x, y), (x, y, bulge), (x1, y1, x, y) or (x1, y1, x2, y2, x, y),"
-        " or a sequence of contours of such corners"
-    )
-    try:
-        is_one = len(profile) == 0 or np.ndim(profile[0][0]) == 0
-        contours = [profile] if is_one else profile
-        made = [[tuple(map(float, corner)) for corner in contour] for contour in contours]
-    except (TypeError, ValueError, IndexError, KeyError):
-        raise _arguments.refusal(f"{name}: profile", wanted, profile) from None
-    if not all(len(corner) in (2, 3, 4, 6) for contour in made for corner in contour):
-        raise ValueError(f"{name}: profile must be {wanted}")
-    return made
-
-
-def _profile(contours: list[list[tuple[float, ...]]]) -> Reference:
-    """Makes a profile of the contours."""
-    handle = Reference(create("crt_profile_create"), library.crt_profile_release)
-    for contour in contours:
-        for i, corner in enumerate(contour):
-            if i == 0:
-                library.crt_profile_move_to(handle, *profiles.end_of(corner))
-            else:
-                profiles.add_piece(handle, corner)
-        if contour and len(contour[0]) > 2:
-            profiles.add_piece(handle, contour[0])
-    return handle
-
-
 def _points(name: str, path: ArrayLike, argument: str = "path") -> NDArray[np.float64]:
     """Returns points as rows of three numbers."""
     try:
@@ -375,9 +344,9 @@ class Extrusion(_Primitive):
         id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(start=start, end=end)
-        contours = _contours("Extrusion", profile)
+        contours = profiles.read_contours("Extrusion", profile)
         shown = {"profile": contours, "start": tuple(a), "end": tuple(b)}
-        self._create("crt_extrusion_create", material, id, shown, _profile(contours), a, b)
+        self._create("crt_extrusion_create", material, id, shown, profiles.profile_of(contours), a, b)
 
 
 class Revolution(_Primitive):
@@ -403,10 +372,10 @@ class Revolution(_Primitive):
         id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(start=start, end=end)
-        contours = _contours("Revolution", profile)
+        contours = profiles.read_contours("Revolution", profile)
         turn = self._positive(angle, "angle")
         shown = {"profile": contours, "start": tuple(a), "end": tuple(b), "angle": turn}
-        handle = _profile(contours)
+        handle = profiles.profile_of(contours)
         self._create(
             "crt_revolution_create", material, id, shown, handle, a, b, math.radians(turn)
         )
@@ -436,7 +405,7 @@ class Sweep(_Primitive):
         material: AnyMaterial | None = None,
         id: SupportsIndex | None = None,
     ) -> None:
-        contours = _contours("Sweep", profile)
+        contours = profiles.read_contours("Sweep", profile)
         points = _points("Sweep", path)
         radius = _arguments.number(bend, "Sweep: bend")
         (above,) = self._vectors(up=up)
@@ -452,7 +421,7 @@ class Sweep(_Primitive):
             material,
             id,
             shown,
-            _profile(contours),
+            profiles.profile_of(contours),
             points.ctypes.data,
             len(points),
             radius,

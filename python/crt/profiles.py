@@ -4,14 +4,17 @@
 import ctypes
 import os
 import warnings
+from collections.abc import Sequence
 from typing import Any, SupportsFloat
+
+import numpy as np
 
 from . import _arguments
 from ._handles import Reference
 from ._library import create, library
 from .errors import named
 
-__all__ = ["svg_path", "text_contours"]
+__all__ = ["offset_contours", "svg_path", "text_contours"]
 
 Contour = list[tuple[float, float, float]]
 
@@ -66,6 +69,19 @@ def text_contours(
     return contours_of(handle)
 
 
+def offset_contours(profile: Sequence[Any], distance: SupportsFloat) -> list[Contour]:
+    """Returns the contours of a region that is larger all around by a distance, or smaller by one
+    below 0, of which nothing may be left. `profile` is as crt.Extrusion takes it. Straight pieces
+    move, arcs get another radius, and outer corners become arcs about them (inner ones, below
+    0)."""
+    handle = profile_of(read_contours("offset_contours", profile))
+    with named("offset_contours"):
+        library.crt_profile_offset(
+            handle, _arguments.number(distance, "offset_contours: distance")
+        )
+    return contours_of(handle)
+
+
 def _new_profile() -> Reference:
     return Reference(create("crt_profile_create"), library.crt_profile_release)
 
@@ -100,3 +116,34 @@ def add_piece(handle: Any, corner: tuple[float, ...]) -> None:
             library.crt_profile_cubic_to(handle, *corner, 0.0)
         else:
             library.crt_profile_quadratic_to(handle, *corner, 0.0)
+
+
+def read_contours(name: str, profile: Sequence[Any]) -> list[list[tuple[float, ...]]]:
+    """Returns the contours of a profile, which may be one or a sequence of several."""
+    wanted = (
+        "corners (x, y), (x, y, bulge), (x1, y1, x, y) or (x1, y1, x2, y2, x, y),"
+        " or a sequence of contours of such corners"
+    )
+    try:
+        is_one = len(profile) == 0 or np.ndim(profile[0][0]) == 0
+        contours = [profile] if is_one else profile
+        made = [[tuple(map(float, corner)) for corner in contour] for contour in contours]
+    except (TypeError, ValueError, IndexError, KeyError):
+        raise _arguments.refusal(f"{name}: profile", wanted, profile) from None
+    if not all(len(corner) in (2, 3, 4, 6) for contour in made for corner in contour):
+        raise ValueError(f"{name}: profile must be {wanted}")
+    return made
+
+
+def profile_of(contours: list[list[tuple[float, ...]]]) -> Reference:
+    """Makes a profile of the contours."""
+    handle = _new_profile()
+    for contour in contours:
+        for i, corner in enumerate(contour):
+            if i == 0:
+                library.crt_profile_move_to(handle, *end_of(corner))
+            else:
+                add_piece(handle, corner)
+        if contour and len(contour[0]) > 2:
+            add_piece(handle, contour[0])
+    return handle

@@ -4,6 +4,7 @@
 
 #include "capi/structs.hpp"
 #include "crt/curves.hpp"
+#include "crt/offset.hpp"
 #include "crt/svg_path.hpp"
 #include "crt/sweep.hpp"
 #include "crt/text.hpp"
@@ -89,6 +90,14 @@ crt_status crt_profile_svg_path(crt_profile* profile, const char* path, size_t l
     std::vector<crt::Contour> contours =
         crt::svg_path_contours({path, length}, {.fill = rule, .deviation = deviation});
     add_contours(*profile, std::move(contours));
+  });
+}
+
+crt_status crt_profile_offset(crt_profile* profile, double distance) {
+  return guarded([&] {
+    require(profile, "profile");
+    profile->contours = crt::offset_contours(profile->contours, distance);
+    profile->is_drawn = false;
   });
 }
 

@@ -327,21 +327,25 @@ void convert(const Given& given, Context& context, FileName& field) {
            .span = given.value_span};
 }
 
-void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field) {
+std::vector<Contour> contours_of(const Given& given, Context& context) {
   const std::vector<Value>& items = get<List>(given)->items;
   const auto is_contour = [](const Value& item) {
     const List* list = std::get_if<List>(&item);
     return list && !(*list)->items.empty() && std::holds_alternative<List>((*list)->items[0]);
   };
   std::vector<Contour> contours;
-  if (!items.empty() && std::all_of(items.begin(), items.end(), is_contour)) {
+  if (std::all_of(items.begin(), items.end(), is_contour)) {
     for (const Value& item : items) {
       contours.push_back(contour_of(given, context, std::get<List>(item)->items));
     }
   } else {
     contours.push_back(contour_of(given, context, items));
   }
-  field = make_profile(contours);
+  return contours;
+}
+
+void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field) {
+  field = make_profile(contours_of(given, context));
 }
 
 void convert(const Given& given, Context& context, std::shared_ptr<const Font>& field) {

@@ -62,6 +62,8 @@ void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
 void convert(const Given& given, Context& context, FileName& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field);
+/// Reads the contours of a profile, of which each is a List.
+std::vector<Contour> contours_of(const Given& given, Context& context);
 void convert(const Given& given, Context& context, std::shared_ptr<const Font>& field);
 void convert(const Given& given, Context& context, TextAlignment& field);
 void convert(const Given& given, Context& context, HeightImage& field);

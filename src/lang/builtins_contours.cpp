@@ -1,9 +1,12 @@
-// This file has the built-in that makes contours of profiles from a drawing.
+// This file has the built-ins that make contours of profiles.
 #include <array>
+#include <functional>
 #include <string>
 #include <utility>
 
+#include "crt/offset.hpp"
 #include "crt/svg_path.hpp"
+#include "lang/attributes.hpp"
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
 
@@ -28,6 +31,20 @@ Value list_of(const Arguments& arguments, const Contour& contour) {
   return context.make_list(arguments.call, std::move(corners));
 }
 
+Value list_of(const Arguments& arguments, const std::vector<Contour>& contours) {
+  std::vector<Value> lists;
+  lists.reserve(contours.size());
+  for (const Contour& contour : contours) lists.push_back(list_of(arguments, contour));
+  return arguments.context.make_list(arguments.call, std::move(lists));
+}
+
+/// Returns what takes the work of the core as steps of the script.
+std::function<void(std::uint64_t)> work_of(const Arguments& arguments) {
+  return [&arguments](std::uint64_t work) {
+    arguments.context.spend(arguments.call, static_cast<std::size_t>(work / work_per_step));
+  };
+}
+
 FillRule fill_rule(const Arguments& arguments, std::size_t i) {
   const auto* rule = std::get_if<String>(&arguments[i]);
   if (rule && (*rule)->text == "nonzero") return FillRule::nonzero;
@@ -43,16 +60,10 @@ Value svg(const Arguments& arguments) {
   PathOptions options;
   if (arguments.size() > 1) options.deviation = arguments.number(1);
   if (arguments.size() > 2) options.fill = fill_rule(arguments, 2);
-  options.work = [&](std::uint64_t work) {
-    context.spend(arguments.call, static_cast<std::size_t>(work / work_per_step));
-  };
+  options.work = work_of(arguments);
   context.spend(arguments.call, (*path)->text.size());
   try {
-    std::vector<Value> contours;
-    for (const Contour& contour : svg_path_contours((*path)->text, options)) {
-      contours.push_back(list_of(arguments, contour));
-    }
-    return context.make_list(arguments.call, std::move(contours));
+    return list_of(arguments, svg_path_contours((*path)->text, options));
   } catch (const Error& error) {
     const std::size_t wrong = error.argument() == "deviation" ? 1 : 0;
     throw Failure{.span = arguments.span(wrong < arguments.size() ? wrong : 0),
@@ -61,7 +72,28 @@ Value svg(const Arguments& arguments) {
   }
 }
 
+/// Computes offset(contours, distance).
+Value offset(const Arguments& arguments) {
+  AttributeType type;
+  type.name = "contours";
+  type.type = "List";
+  const Given given{.type = &type,
+                    .name_span = arguments.span(0),
+                    .value_span = arguments.span(0),
+                    .value = arguments[0]};
+  const std::vector<Contour> contours = contours_of(given, arguments.context);
+  const double distance = arguments.number(1);
+  try {
+    return list_of(arguments, offset_contours(contours, distance, work_of(arguments)));
+  } catch (const Error& error) {
+    throw Failure{.span = arguments.span(error.argument() == "distance" ? 1 : 0),
+                  .message = std::string("offset: ") + error.what(),
+                  .code = error.code()};
+  }
+}
+
 constexpr std::array table = {
+    Builtin{"offset", "offset(contours, distance)", 2, 2, offset},
     Builtin{"svg", "svg(path, deviation, rule)", 1, 3, svg},
 };
 

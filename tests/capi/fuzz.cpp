@@ -92,6 +92,7 @@ void Session::make_primitive() {
         crt_profile_arc_to(profile, c[0], c[1], r);
         if (input_.below(4) == 0) crt_profile_cubic_to(profile, a[1], a[2], b[1], b[2], s, c[2], r);
         if (input_.below(4) == 0) crt_profile_quadratic_to(profile, a[2], b[0], c[1], r, s);
+        if (input_.below(8) == 0) crt_profile_offset(profile, r);
         if (input_.below(8) == 0) crt_profile_svg_path(profile, "M1 0q1 1 2 0t1 1", 16, 0, r);
         if (input_.below(8) == 0) crt_profile_text(profile, "g", 1, nullptr, s, 0, r, 0, nullptr);
         if (input_.below(2) != 0) crt_profile_move_to(profile, b[2], s);

@@ -146,6 +146,24 @@ TEST_CASE("curves and SVG paths become contours, whose corners can be read") {
   CHECK(crossings(entity.get(), {11, -1, 0.5}, {0, 1, 0}) == std::vector<double>{1, 2});
 }
 
+TEST_CASE("a profile grows and shrinks by an offset") {
+  const ProfileHandle profile = new_profile();
+  CHECK(crt_profile_svg_path(profile.get(), "M0 0h4v4h-4z", 12, CRT_FILL_NONZERO, 0) == CRT_OK);
+  CHECK(crt_profile_offset(profile.get(), 1) == CRT_OK);
+  const EntityHandle entity = extrusion(profile.get(), {0, 0, 0}, {0, 0, 1});
+  CHECK(crossings(entity.get(), {-3, -2, 0.5}, {1, 0, 0}) == std::vector<double>{2, 8});
+  CHECK(crt_profile_line_to(profile.get(), 1, 1) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(crt_profile_offset(profile.get(), not_a_number) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("distance"));
+  CHECK(crt_profile_offset(nullptr, 1) == CRT_ERROR_INVALID_ARGUMENT);
+  std::size_t count = 9;
+  CHECK(crt_profile_contour_count(profile.get(), &count) == CRT_OK);
+  CHECK(count == 1);
+  CHECK(crt_profile_offset(profile.get(), -4) == CRT_OK);
+  CHECK(crt_profile_contour_count(profile.get(), &count) == CRT_OK);
+  CHECK(count == 0);
+}
+
 TEST_CASE("a wrong curve or path changes nothing, and says why") {
   const ProfileHandle profile = new_profile();
   const auto refuses = [](crt_status status, const char* text) {

@@ -26,6 +26,17 @@ class Profiles(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "profile must be corners"):
             crossings([(0, 0), (1, 2, 3, 4, 5)], 0)
 
+    def test_offset_contours(self):
+        square = [(0, 0), (4, 0), (4, 4), (0, 4)]
+        self.assertEqual(crossings(crt.offset_contours(square, 1), 2), [-1, 5])
+        (inner,) = crt.offset_contours(square, -1)
+        self.assertEqual({corner[:2] for corner in inner}, {(1, 1), (1, 3), (3, 1), (3, 3)})
+        self.assertEqual(crt.offset_contours([square], -2.5), [])
+        with self.assertRaisesRegex(TypeError, "offset_contours: profile must be"):
+            crt.offset_contours(3, 1)
+        with self.assertRaisesRegex(TypeError, "offset_contours: distance must be"):
+            crt.offset_contours(square, "far")
+
     def test_svg_path(self):
         self.assertEqual(crt.svg_path("M0 0H2V1z"), [[(0, 0, 0), (2, 0, 0), (2, -1, 0)]])
         self.assertEqual(crt.svg_path("M0 0A1 1 0 0 1 2 0z"), [[(0, 0, 0), (2, 0, -1)]])

@@ -10,8 +10,8 @@
 
 namespace crt::core {
 
-Arrangement::Arrangement(std::span<const Contour* const> contours, Budget& budget)
-    : contours_(contours), budget_(budget) {
+Arrangement::Arrangement(std::span<const Contour* const> contours, WindingRule rule, Budget& budget)
+    : contours_(contours), rule_(rule), budget_(budget) {
   Vec2 lower(infinity, infinity);
   Vec2 upper = -lower;
   for (const Contour* contour : contours) {

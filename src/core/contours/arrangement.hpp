@@ -1,10 +1,11 @@
-// An arrangement is contours that are near each other, cut where they meet: see nonzero.hpp.
+// An arrangement is contours that are near each other, cut where they meet: see fill.hpp.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/contours/fill.hpp"
 #include "core/contours/plane_piece.hpp"
 #include "core/contours/winding.hpp"
 #include "crt/primitives.hpp"
@@ -13,9 +14,9 @@ namespace crt::core {
 
 class Arrangement {
  public:
-  Arrangement(std::span<const Contour* const> contours, Budget& budget);
+  Arrangement(std::span<const Contour* const> contours, WindingRule rule, Budget& budget);
 
-  /// Appends the contours that bound the region by the nonzero rule.
+  /// Appends the contours that bound the region by the rule.
   void append_boundary(std::vector<Contour>& result) const;
 
  private:
@@ -70,6 +71,7 @@ class Arrangement {
   ProfilePoint corner_of(const Part& part, double bulge) const;
 
   std::span<const Contour* const> contours_;
+  WindingRule rule_;
   Budget& budget_;
   Vec2 origin_{0, 0};
   double unit_ = 1;

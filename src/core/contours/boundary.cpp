@@ -5,7 +5,7 @@
 
 #include "core/contours/arrangement.hpp"
 #include "core/contours/biarcs.hpp"
-#include "core/contours/nonzero.hpp"
+#include "core/contours/fill.hpp"
 #include "crt/error.hpp"
 
 namespace crt::core {
@@ -13,12 +13,25 @@ namespace crt::core {
 namespace {
 
 [[noreturn]] void refuse_touching() {
-  throw Error(ErrorCode::unsupported,
-              "contours touch so closely that rounding decides what the nonzero rule fills: "
-              "use the even-odd rule, or draw them as several");
+  throw Error(
+      ErrorCode::unsupported,
+      "contours touch so closely that rounding decides what is inside: use the even-odd rule, "
+      "or draw them as several");
 }
 
 }  // namespace
+
+bool is_inside(WindingRule rule, int winding) {
+  switch (rule) {
+    case WindingRule::nonzero:
+      return winding != 0;
+    case WindingRule::odd:
+      return winding % 2 != 0;
+    case WindingRule::positive:
+      break;
+  }
+  return winding > 0;
+}
 
 bool Arrangement::is_boundary(Run& run, const WindingIndex& index) const {
   const Part& longest =
@@ -29,8 +42,8 @@ bool Arrangement::is_boundary(Run& run, const WindingIndex& index) const {
   run.middle = piece.middle();
   const double distance = tolerance_ / 16;
   const Vec2 right = distance * piece.normal_at(run.middle);
-  const bool in_left = index.winding_of(run.middle - right) != 0;
-  const bool in_right = index.winding_of(run.middle + right) != 0;
+  const bool in_left = is_inside(rule_, index.winding_of(run.middle - right));
+  const bool in_right = is_inside(rule_, index.winding_of(run.middle + right));
   if (in_left == in_right) return false;
   if (in_right) {
     std::reverse(run.parts.begin(), run.parts.end());

@@ -5,7 +5,7 @@
 
 #include "core/base/whole_file.hpp"
 #include "core/contours/append.hpp"
-#include "core/contours/nonzero.hpp"
+#include "core/contours/fill.hpp"
 #include "crt/curves.hpp"
 #include "crt/error.hpp"
 #include "crt/text.hpp"

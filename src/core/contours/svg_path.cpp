@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/contours/append.hpp"
-#include "core/contours/nonzero.hpp"
+#include "core/contours/fill.hpp"
 #include "core/contours/path_reader.hpp"
 #include "crt/curves.hpp"
 #include "crt/error.hpp"
@@ -166,7 +166,8 @@ class PathDrawer {
 
 std::vector<Contour> svg_path_contours(std::string_view path, const PathOptions& options) {
   std::vector<Contour> contours = PathDrawer(path, options.deviation).draw();
-  if (options.fill == FillRule::nonzero) contours = nonzero_contours(contours, options.work);
+  if (options.fill == FillRule::nonzero)
+    contours = fill_contours(contours, WindingRule::nonzero, options.work);
   if (contours.empty()) {
     throw Error(ErrorCode::invalid_argument, "path must enclose an area", "path");
   }

@@ -4,8 +4,8 @@
 #include <map>
 #include <vector>
 
+#include "core/contours/fill.hpp"
 #include "core/contours/font.hpp"
-#include "core/contours/nonzero.hpp"
 #include "crt/error.hpp"
 #include "crt/text.hpp"
 #include "text/format.hpp"
@@ -94,7 +94,8 @@ class Typesetter {
       height -= layout_.line_spacing * reader_.line_height();
     }
     if (layout_.options.fill == FillRule::nonzero) {
-      result_.contours = nonzero_contours(result_.contours, layout_.options.work);
+      result_.contours =
+          fill_contours(result_.contours, WindingRule::nonzero, layout_.options.work);
     }
     return std::move(result_);
   }

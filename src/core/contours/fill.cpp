@@ -1,4 +1,4 @@
-#include "core/contours/nonzero.hpp"
+#include "core/contours/fill.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -67,8 +67,8 @@ std::vector<std::vector<const Contour*>> groups_of(std::span<const Contour> cont
 
 }  // namespace
 
-std::vector<Contour> nonzero_contours(std::span<const Contour> contours,
-                                      const std::function<void(std::uint64_t)>& work) {
+std::vector<Contour> fill_contours(std::span<const Contour> contours, WindingRule rule,
+                                   const std::function<void(std::uint64_t)>& work) {
   Budget budget(work);
   // A last corner that repeats the first is the piece back to it.
   std::vector<Contour> open(contours.begin(), contours.end());
@@ -79,7 +79,7 @@ std::vector<Contour> nonzero_contours(std::span<const Contour> contours,
   }
   std::vector<Contour> result;
   for (const std::vector<const Contour*>& group : groups_of(open, budget)) {
-    Arrangement(group, budget).append_boundary(result);
+    Arrangement(group, rule, budget).append_boundary(result);
   }
   budget.report();
   return result;

@@ -1,4 +1,4 @@
-#include "core/contours/nonzero.hpp"
+#include "core/contours/fill.hpp"
 
 #include <doctest/doctest.h>
 
@@ -30,16 +30,21 @@ Contour turned(Contour contour) {
   return result;
 }
 
-/// Checks that points are inside of what is returned as the nonzero rule says of what is given.
-void check_same_region(const std::vector<Contour>& given, const std::vector<Contour>& returned,
-                       Random& random, int points, double size, double margin) {
+std::vector<Contour> nonzero(const std::vector<Contour>& contours) {
+  return fill_contours(contours, WindingRule::nonzero);
+}
+
+/// Checks that points are inside of what is returned as the rule says of what is given.
+void check_same_region(const std::vector<Contour>& given, WindingRule rule,
+                       const std::vector<Contour>& returned, Random& random, int points,
+                       double size, double margin) {
   for (int i = 0; i < points; ++i) {
     const Point point{random.uniform(-size, size), random.uniform(-size, size)};
     const View before(given, point);
     if (before.distance < margin) continue;
     const View after(returned, point);
     INFO(static_cast<double>(point.x), " ", static_cast<double>(point.y));
-    CHECK(after.is_odd() == (before.winding != 0));
+    CHECK(after.is_odd() == is_inside(rule, before.winding));
   }
 }
 
@@ -83,12 +88,13 @@ std::vector<Contour> some_contours(Random& random, const Make& make) {
   return contours;
 }
 
-/// Checks that the contours by the even-odd rule enclose what those given do by the nonzero rule.
-void check_nonzero(const std::vector<Contour>& contours, Random& random, double size,
-                   double margin) {
-  const std::vector<Contour> returned = nonzero_contours(contours);
-  check_same_region(contours, returned, random, 12, size, margin);
-  if (!returned.empty()) CHECK_NOTHROW(make_profile(returned));
+/// Checks that the contours by the even-odd rule enclose what those given do by each rule.
+void check_rules(const std::vector<Contour>& contours, Random& random, double size, double margin) {
+  for (const WindingRule rule : {WindingRule::nonzero, WindingRule::odd, WindingRule::positive}) {
+    const std::vector<Contour> returned = fill_contours(contours, rule);
+    check_same_region(contours, rule, returned, random, 12, size, margin);
+    if (!returned.empty()) CHECK_NOTHROW(make_profile(returned));
+  }
 }
 
 }  // namespace
@@ -98,24 +104,21 @@ TEST_CASE("contours that do not meet stay as they are, or go as a whole") {
   const Contour hole = turned(rectangle(1, 1, 9, 9));
   const Contour island = circle(5, 5, 2);
   const Contour beside = circle(20, 0, 3);
-  CHECK(nonzero_contours(Contours{outer, hole, island, beside}) ==
-        Contours{outer, hole, island, beside});
-  CHECK(nonzero_contours(Contours{outer, island}) == Contours{outer});
-  CHECK(nonzero_contours(Contours{island, hole, outer, rectangle(2, 2, 3, 3)}) ==
+  CHECK(nonzero(Contours{outer, hole, island, beside}) == Contours{outer, hole, island, beside});
+  CHECK(nonzero(Contours{outer, island}) == Contours{outer});
+  CHECK(nonzero(Contours{island, hole, outer, rectangle(2, 2, 3, 3)}) ==
         Contours{island, hole, outer, rectangle(2, 2, 3, 3)});
-  CHECK(nonzero_contours(Contours{turned(outer), turned(island)}) == Contours{turned(outer)});
+  CHECK(nonzero(Contours{turned(outer), turned(island)}) == Contours{turned(outer)});
 }
 
 TEST_CASE("what several contours cover is one region") {
-  const auto area = [](const std::vector<Contour>& contours) {
-    return area_of(nonzero_contours(contours));
-  };
+  const auto area = [](const std::vector<Contour>& contours) { return area_of(nonzero(contours)); };
   const Contour square = rectangle(0, 0, 2, 2);
   CHECK(area({square, rectangle(1, 1, 3, 3)}) == doctest::Approx(7));
   CHECK(area({square, rectangle(2, 0, 4, 2)}) == doctest::Approx(8));
   CHECK(area({square, square, square}) == doctest::Approx(4));
   CHECK(area({square, rectangle(0, 0, 1, 1)}) == doctest::Approx(4));
-  CHECK(nonzero_contours(Contours{square, turned(square)}).empty());
+  CHECK(nonzero(Contours{square, turned(square)}).empty());
   const double pi = std::numbers::pi;
   CHECK(area({circle(0, 0, 1), circle(0, 0, 1)}) == doctest::Approx(pi));
   CHECK(area({circle(0, 0, 1), circle(2, 0, 1)}) == doctest::Approx(2 * pi));
@@ -132,14 +135,14 @@ TEST_CASE("what several contours cover is one region") {
 TEST_CASE("contours of any shape enclose the same region by the even-odd rule") {
   Random random(3);
   for (int i = 0; i < 250; ++i) {
-    check_nonzero(some_contours(random, random_contour), random, 2, 2e-3);
+    check_rules(some_contours(random, random_contour), random, 2, 2e-3);
   }
 }
 
 TEST_CASE("contours that touch and lie on each other enclose the same region") {
   Random random(4);
   for (int i = 0; i < 400; ++i) {
-    check_nonzero(some_contours(random, random_contour_of_grid), random, 5, 1e-2);
+    check_rules(some_contours(random, random_contour_of_grid), random, 5, 1e-2);
   }
 }
 
@@ -147,7 +150,7 @@ TEST_CASE("the place and size of contours do not matter") {
   Random random(5);
   for (int i = 0; i < 60; ++i) {
     std::vector<Contour> contours = {random_contour(random), random_contour(random)};
-    const std::vector<Contour> here = nonzero_contours(contours);
+    const std::vector<Contour> here = nonzero(contours);
     const double scale = random.one_in(2) ? 0x1p-320 : 0x1p320;
     for (Contour& contour : contours) {
       for (ProfilePoint& corner : contour) {
@@ -155,34 +158,31 @@ TEST_CASE("the place and size of contours do not matter") {
         corner.y *= scale;
       }
     }
-    std::vector<Contour> there = nonzero_contours(contours);
+    std::vector<Contour> there = nonzero(contours);
     REQUIRE(there.size() == here.size());
     for (std::size_t k = 0; k < here.size(); ++k) REQUIRE(there[k].size() == here[k].size());
   }
 }
 
 TEST_CASE("a contour that is next to nothing beside another is refused, not left out") {
-  CHECK(nonzero_contours(Contours{rectangle(-1e9, 0, 1e9, 1e9), rectangle(0, -1, 1, 1)}).size() >=
-        1);
-  CHECK_THROWS_WITH_AS(
-      nonzero_contours(Contours{rectangle(-1e15, 0, 1e15, 1e15), rectangle(0, -1, 1, 1)}),
-      doctest::Contains("touch so closely"), Error);
+  CHECK(nonzero(Contours{rectangle(-1e9, 0, 1e9, 1e9), rectangle(0, -1, 1, 1)}).size() >= 1);
+  CHECK_THROWS_WITH_AS(nonzero(Contours{rectangle(-1e15, 0, 1e15, 1e15), rectangle(0, -1, 1, 1)}),
+                       doctest::Contains("touch so closely"), Error);
 }
 
 TEST_CASE("many contours take no more than their share of time") {
   std::vector<Contour> apart;
   for (int i = 0; i < 20000; ++i) apart.push_back(circle(3 * (i % 100), 3 * (i / 100), 1));
-  CHECK(nonzero_contours(apart).size() == apart.size());
+  CHECK(nonzero(apart).size() == apart.size());
   std::vector<Contour> on_each_other;
   for (int i = 0; i < 10000; ++i) on_each_other.push_back(circle(1e-3 * i, 0, 1e3));
-  CHECK_THROWS_WITH_AS(nonzero_contours(on_each_other), doctest::Contains("too many pieces"),
-                       Error);
+  CHECK_THROWS_WITH_AS(nonzero(on_each_other), doctest::Contains("too many pieces"), Error);
   std::uint64_t steps = 0;
   const auto work = [&](std::uint64_t more) {
     steps += more;
     if (steps > 10'000'000) throw Error(ErrorCode::cancelled, "enough");
   };
-  CHECK_THROWS_WITH_AS(nonzero_contours(on_each_other, work), "enough", Error);
+  CHECK_THROWS_WITH_AS(fill_contours(on_each_other, WindingRule::nonzero, work), "enough", Error);
   CHECK(steps < 12'000'000);
 }
 
