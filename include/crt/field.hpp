@@ -8,6 +8,8 @@
 
 namespace crt {
 
+class Profile;
+
 namespace core {
 struct FieldNode;
 }  // namespace core
@@ -86,6 +88,13 @@ Field floor(const Field& a);
 Field ceil(const Field& a);
 /// Returns the nearest whole number. Halves go away from 0.
 Field round(const Field& a);
+
+/// Returns how far (x, y) is from the boundary of a profile (make_profile() in crt/primitives.hpp),
+/// below 0 inside: what is at most 0.1, say, is the profile with a margin all around it. Evaluating
+/// it takes time that grows with the profile's pieces. Throws Error (invalid_argument) if contours
+/// cross or touch one another or themselves, or if there are over 4096 pieces.
+Field profile_distance(const std::shared_ptr<const Profile>& profile, const Field& x,
+                       const Field& y);
 
 /// Reads a field from an expression of the CRT language, in which x, y and z are the coordinates:
 /// "x ** 2 + y ** 2 + z ** 2 - 1". It sees the language's functions and constants, and `t` is 0.

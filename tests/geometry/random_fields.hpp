@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/geometry/implicit/field_node.hpp"
+#include "core/geometry/implicit/profile_distance.hpp"
 #include "geometry/oracle.hpp"
 
 namespace crt::test {
@@ -73,6 +74,10 @@ inline double plain_value(const core::FieldNode& node, const Vec3& p) {
       return std::ceil(a);
     case round:
       return std::round(a);
+    case profile_distance: {
+      const std::array<core::Interval, 2> at = {core::Interval::of(a), core::Interval::of(b)};
+      return node.profile->evaluate(at, at).middle.middle();
+    }
   }
   return none;
 }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/contours/fill.hpp"
-#include "core/contours/plane_piece.hpp"
 #include "core/contours/winding.hpp"
+#include "core/geometry/plane_piece.hpp"
 #include "crt/primitives.hpp"
 
 namespace crt::core {

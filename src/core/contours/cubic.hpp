@@ -3,23 +3,11 @@
 
 #include <array>
 #include <cstddef>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <utility>
 
+#include "core/math/plane_vector.hpp"
+
 namespace crt::core {
-
-using Vec2 = glm::dvec2;
-
-/// Returns a x b for vectors of the plane.
-inline double cross(const Vec2& a, const Vec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-/// Returns v turned by a quarter of a turn from x to y.
-inline Vec2 quarter_turned(const Vec2& v) {
-  return {-v.y, v.x};
-}
 
 /// A Bernstein polynomial of the degree. Its values on [0, 1] are between its least and its largest
 /// coefficient.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contours/plane_piece.hpp"
+#include "core/geometry/plane_piece.hpp"
 
 namespace crt::core {
 

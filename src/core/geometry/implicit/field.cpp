@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/implicit/field_node.hpp"
+#include "core/geometry/implicit/profile_distance.hpp"
 #include "crt/error.hpp"
 #include "text/format.hpp"
 
@@ -12,10 +13,12 @@ namespace crt {
 
 namespace core {
 
-Field FieldNode::make(FieldOperation operation, double number, const Field* a, const Field* b) {
+Field FieldNode::make(FieldOperation operation, double number, const Field* a, const Field* b,
+                      std::shared_ptr<const ProfileDistance> profile) {
   auto node = std::make_shared<FieldNode>();
   node->operation = operation;
   node->number = number;
+  node->profile = std::move(profile);
   for (const auto& [operand, place] : {std::pair{a, &node->a}, std::pair{b, &node->b}}) {
     if (operand == nullptr) continue;
     *place = operand->node_;
@@ -127,6 +130,12 @@ Field atan(const Field& a) {
 }
 Field atan2(const Field& y, const Field& x) {
   return core::of_two(FieldOperation::arc_tangent_of_two, y, x);
+}
+Field profile_distance(const std::shared_ptr<const Profile>& profile, const Field& x,
+                       const Field& y) {
+  if (!profile) throw Error(ErrorCode::invalid_argument, "profile must be given", "profile");
+  return FieldNode::make(FieldOperation::profile_distance, 0, &x, &y,
+                         std::make_shared<const core::ProfileDistance>(profile));
 }
 Field exp(const Field& a) {
   return core::of_one(FieldOperation::exponential, a);

@@ -38,15 +38,18 @@ enum class FieldOperation : std::uint8_t {
   floor,
   ceiling,
   round,
+  profile_distance,  ///< of a point of the plane
 };
 
 class FieldProgram;
+class ProfileDistance;
 
 struct FieldNode {
   FieldOperation operation = FieldOperation::constant;
   double number = 0;
   std::shared_ptr<const FieldNode> a{};
   std::shared_ptr<const FieldNode> b{};
+  std::shared_ptr<const ProfileDistance> profile{};
   std::uint32_t depth = 1;  ///< counts the operations within one another
 
   /// All solids of a field share its program, which is made when the first of them is.
@@ -55,7 +58,7 @@ struct FieldNode {
 
   /// Makes a field of an operation. Throws Error (invalid_argument) if it is too deep.
   static Field make(FieldOperation operation, double number = 0, const Field* a = nullptr,
-                    const Field* b = nullptr);
+                    const Field* b = nullptr, std::shared_ptr<const ProfileDistance> profile = {});
 };
 
 /// More operations within one another would take too much of the stack.

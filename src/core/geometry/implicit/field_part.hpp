@@ -14,6 +14,7 @@
 #include <numbers>
 
 #include "core/geometry/implicit/field_program.hpp"
+#include "core/geometry/implicit/profile_distance.hpp"
 #include "core/math/interval.hpp"
 #include "core/math/vector.hpp"
 
@@ -106,6 +107,7 @@ class FieldPart {
   Value quotient(const Value& a, const Value& b);
   Value extreme(const Value& a, const Value& b, bool is_least) const;
   Value angle(const Value& y, const Value& x);
+  static Value of_profile(const ProfileDistance& profile, const Value& x, const Value& y);
   template <class Function>
   Value staircase(const Value& a, const Function& function) const;
 
@@ -173,6 +175,13 @@ FieldValue<numbers> FieldPart<numbers>::angle(const Value& y, const Value& x) {
   return {of(y.middle, x.middle), of(y.all, x.all),
           is_cut ? Slopes::unbounded()
                  : (x.all * y.slope - y.all * x.slope) / (square(x.all) + square(y.all))};
+}
+
+template <std::size_t numbers>
+FieldValue<numbers> FieldPart<numbers>::of_profile(const ProfileDistance& profile, const Value& x,
+                                                   const Value& y) {
+  const ProfileDistance::Values found = profile.evaluate({x.middle, y.middle}, {x.all, y.all});
+  return {found.middle, found.all, found.slope_x * x.slope + found.slope_y * y.slope};
 }
 
 template <std::size_t numbers>
@@ -307,6 +316,9 @@ FieldValues<numbers> FieldPart<numbers>::evaluate(const FieldProgram& program,
         result = {core::square(a.middle), core::square(a.all), twice + twice};
         break;
       }
+      case profile_distance:
+        result = of_profile(*step.profile, a, b);
+        break;
       case divide:
       case minimum:
       case maximum:

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/geometry/implicit/profile_distance.hpp"
+#include "core/geometry/profile/profile.hpp"
 #include "crt/error.hpp"
 #include "text/format.hpp"
 
@@ -23,8 +25,9 @@ class StepList {
     if (node.a) step.a = append(*node.a);
     if (node.b) step.b = append(*node.b);
     simplify(step);
-    const auto key =
-        std::tuple(step.operation, step.a, step.b, std::bit_cast<std::uint64_t>(step.number));
+    if (node.profile) step.profile = kept(node.profile);
+    const auto key = std::tuple(step.operation, step.a, step.b,
+                                std::bit_cast<std::uint64_t>(step.number), step.profile);
     const auto [entry, is_new] = by_key_.try_emplace(key, static_cast<std::uint16_t>(steps.size()));
     if (is_new) {
       if (steps.size() == FieldProgram::most_steps) {
@@ -40,8 +43,17 @@ class StepList {
   }
 
   std::vector<FieldStep> steps;
+  std::vector<std::shared_ptr<const ProfileDistance>> profiles;
 
  private:
+  /// Returns what stands for a profile that several steps may have.
+  const ProfileDistance* kept(const std::shared_ptr<const ProfileDistance>& profile) {
+    for (const auto& known : profiles)
+      if (known->profile() == profile->profile()) return known.get();
+    profiles.push_back(profile);
+    return profile.get();
+  }
+
   static void simplify(FieldStep& step) {
     using enum FieldOperation;
     if (step.operation == multiply && step.a == step.b) {
@@ -54,8 +66,9 @@ class StepList {
   }
 
   std::unordered_map<const FieldNode*, std::uint16_t> by_node_;
-  std::map<std::tuple<FieldOperation, std::uint16_t, std::uint16_t, std::uint64_t>, std::uint16_t>
-      by_key_;
+  using Key = std::tuple<FieldOperation, std::uint16_t, std::uint16_t, std::uint64_t,
+                         const ProfileDistance*>;
+  std::map<Key, std::uint16_t> by_key_;
 };
 
 int operand_count(FieldOperation operation) {
@@ -73,6 +86,7 @@ int operand_count(FieldOperation operation) {
     case minimum:
     case maximum:
     case arc_tangent_of_two:
+    case profile_distance:
       return 2;
     default:
       return 1;
@@ -120,6 +134,7 @@ FieldProgram::FieldProgram(const Field& field) {
   StepList list;
   list.append(field.node());
   steps_ = std::move(list.steps);
+  profiles_ = std::move(list.profiles);
   assign_registers(steps_);
 }
 
@@ -137,7 +152,19 @@ std::vector<Dyadic> FieldProgram::numbers() const {
                                 double{1} * step.a, double{1} * step.b, step.number}) {
       result.emplace_back(number);
     }
+    if (step.profile == nullptr) continue;
+    for (const Contour& contour : step.profile->profile()->contours()) {
+      result.emplace_back(static_cast<double>(contour.size()));
+      for (const ProfilePoint& corner : contour)
+        for (const double number : {corner.x, corner.y, corner.bulge}) result.emplace_back(number);
+    }
   }
+  return result;
+}
+
+std::size_t FieldProgram::bytes() const {
+  std::size_t result = steps_.capacity() * sizeof(FieldStep);
+  for (const auto& profile : profiles_) result += profile->bytes();
   return result;
 }
 

@@ -17,6 +17,7 @@ struct FieldStep {
   std::uint16_t a = 0;
   std::uint16_t b = 0;
   double number = 0;
+  const ProfileDistance* profile = nullptr;
 
   friend bool operator==(const FieldStep&, const FieldStep&) = default;
 };
@@ -38,10 +39,11 @@ class FieldProgram {
   /// Returns numbers that are equal for equal programs alone.
   std::vector<Dyadic> numbers() const;
 
-  std::size_t bytes() const { return steps_.capacity() * sizeof(FieldStep); }
+  std::size_t bytes() const;
 
  private:
   std::vector<FieldStep> steps_;
+  std::vector<std::shared_ptr<const ProfileDistance>> profiles_;  ///< those of the steps
 };
 
 }  // namespace crt::core

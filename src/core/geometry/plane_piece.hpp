@@ -1,12 +1,12 @@
-// A piece of a contour as nonzero filling sees it: on a circle or a straight line, and where it
-// meets others. All answers are those of doubles, to a tolerance.
+// A piece of a contour on a circle or a straight line, and where it meets others. All answers are
+// those of doubles, to a tolerance.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
-#include "core/contours/cubic.hpp"
+#include "core/math/plane_vector.hpp"
 
 namespace crt::core {
 

@@ -1,4 +1,4 @@
-#include "core/contours/plane_piece.hpp"
+#include "core/geometry/plane_piece.hpp"
 
 #include <algorithm>
 #include <cmath>
