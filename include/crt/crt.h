@@ -660,6 +660,19 @@ CRT_API crt_status crt_ellipsoid_create(const double center[3], const double rad
 CRT_API crt_status crt_thread_create(const double from[3], const double to[3], double diameter,
                                      double pitch, int32_t left, crt_entity** out);
 /**
+ * Makes a profile that is drawn out along z, from 0 to a height, and shaped on its way. It is an
+ * implicit solid with the distance from the profile as its field. Contours must not cross or touch
+ * one another. Since 1.1.
+ * @param twist     by how much the upper end is turned, in radians from x towards y; at most 1000
+ *                  turns
+ * @param taper     how many times as large as the lower end the upper one is, 0.001 to 1000
+ * @param bevel     how far edges at both ends are cut off at 45 degrees, up to half of the height
+ * @param rounding  the radius of edges that are rounded instead; 0 if there is a bevel
+ */
+CRT_API crt_status crt_shaped_extrusion_create(const crt_profile* profile, double height,
+                                               double twist, double taper, double bevel,
+                                               double rounding, crt_entity** out);
+/**
  * Makes a box between two corners whose edges and corners are rounded with `radius`, which is from
  * 0 to half of the shortest side. Since 1.1.
  */

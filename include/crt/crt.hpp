@@ -37,6 +37,7 @@
 #include <crt/scene.hpp>
 #include <crt/section.hpp>
 #include <crt/settings.hpp>
+#include <crt/shaped_extrusion.hpp>
 #include <crt/stats.hpp>
 #include <crt/surface_mesh.hpp>
 #include <crt/svg_path.hpp>

@@ -5,6 +5,7 @@
 #include <crt/polyhedron.hpp>
 #include <crt/primitives.hpp>
 #include <crt/schema.hpp>
+#include <crt/shaped_extrusion.hpp>
 #include <crt/sweep.hpp>
 #include <crt/thread.hpp>
 #include <variant>
@@ -201,6 +202,23 @@ inline constexpr auto table<Ellipsoid> = Table{
 };
 
 template <>
+inline constexpr auto table<ShapedExtrusion> = Table{
+    "ShapedExtrusion",
+    field("profile", &ShapedExtrusion::profile, made_by("make_profile"), required,
+          "as for an [Extrusion](#extrusion); its contours do not touch"),
+    field("height", &ShapedExtrusion::height, length, required, "along z, at least 0"),
+    field("twist", &ShapedExtrusion::twist, any, {.degrees = "must be at most 360000 degrees"},
+          "degrees by which the upper end is turned, from x to y"),
+    field("taper", &ShapedExtrusion::taper, any, {},
+          "how many times as large the upper end is, 0.001 to 1000"),
+    field("bevel", &ShapedExtrusion::bevel, length_or_zero, {},
+          "how far edges at the ends are cut off, at 45 degrees"),
+    field("rounding", &ShapedExtrusion::rounding, length_or_zero, {},
+          "the radius of edges that are rounded instead"),
+    material<ShapedExtrusion>,
+};
+
+template <>
 inline constexpr auto table<Sweep> = Table{
     "Sweep",
     field("profile", &Sweep::profile, made_by("make_profile"), required,
@@ -256,7 +274,7 @@ inline constexpr auto table<Hull> = Table{
 };
 
 /// Lists them all.
-using MadeSolids = std::variant<Ellipsoid, Sweep, Tube, Thread, Polyhedron, Hull>;
+using MadeSolids = std::variant<Ellipsoid, ShapedExtrusion, Sweep, Tube, Thread, Polyhedron, Hull>;
 
 }  // namespace crt::schema
 /// @endcond

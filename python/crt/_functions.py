@@ -102,6 +102,16 @@ FUNCTIONS = {
         "int32_t left",
         "crt_entity** out",
     ),
+    "crt_shaped_extrusion_create": (
+        "crt_status",
+        "const crt_profile* profile",
+        "double height",
+        "double twist",
+        "double taper",
+        "double bevel",
+        "double rounding",
+        "crt_entity** out",
+    ),
     "crt_rounded_box_create": (
         "crt_status",
         "const double corner_a[3]",

@@ -39,6 +39,7 @@ __all__ = [
     "Quadric",
     "Revolution",
     "RoundedBox",
+    "ShapedExtrusion",
     "Sphere",
     "Superellipsoid",
     "Sweep",
@@ -647,6 +648,50 @@ class Ellipsoid(_Primitive):
         id: SupportsIndex | None = None,
     ) -> None:
         self._make(material, id, center=center, radii=radii)
+
+
+class ShapedExtrusion(_Primitive):
+    """A ShapedExtrusion is a profile, as crt.Extrusion has it, that is drawn out along z from 0 to
+    the height. Its upper end is turned by `twist` degrees from x towards y, and `taper` times as
+    large. Edges at both ends are cut off by `bevel`, or rounded with the radius `rounding`."""
+
+    profile = _Given[Any]()
+    height = _Given[float]()
+    twist = _Given[float]()
+    taper = _Given[float]()
+    bevel = _Given[float]()
+    rounding = _Given[float]()
+
+    def __init__(
+        self,
+        profile: Sequence[Any],
+        height: SupportsFloat,
+        *,
+        twist: SupportsFloat = 0,
+        taper: SupportsFloat = 1,
+        bevel: SupportsFloat = 0,
+        rounding: SupportsFloat = 0,
+        material: AnyMaterial | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        contours = profiles.read_contours("ShapedExtrusion", profile)
+        given = {
+            "height": height,
+            "twist": twist,
+            "taper": taper,
+            "bevel": bevel,
+            "rounding": rounding,
+        }
+        numbers = {
+            name: _arguments.number(value, f"ShapedExtrusion: {name}")
+            for name, value in given.items()
+        }
+        shown: dict[str, Any] = {"profile": contours, **numbers}
+        numbers["twist"] = math.radians(numbers["twist"])
+        handle = profiles.profile_of(contours)
+        self._create(
+            "crt_shaped_extrusion_create", material, id, shown, handle, *numbers.values()
+        )
 
 
 class Thread(_Primitive):

@@ -5,6 +5,7 @@
 #include "capi/structs.hpp"
 #include "crt/curves.hpp"
 #include "crt/offset.hpp"
+#include "crt/shaped_extrusion.hpp"
 #include "crt/svg_path.hpp"
 #include "crt/sweep.hpp"
 #include "crt/text.hpp"
@@ -161,6 +162,21 @@ crt_status crt_revolution_create(const crt_profile* profile, const double from[3
     require(out, "out");
     const auto made = crt::make_profile(profile->contours);
     *out = new crt_entity(crt::revolved(made, to_vec3(from, "from"), to_vec3(to, "to"), angle));
+  });
+}
+
+crt_status crt_shaped_extrusion_create(const crt_profile* profile, double height, double twist,
+                                       double taper, double bevel, double rounding,
+                                       crt_entity** out) {
+  return guarded([&] {
+    require(profile, "profile");
+    require(out, "out");
+    *out = new crt_entity(crt::ShapedExtrusion{.profile = crt::make_profile(profile->contours),
+                                               .height = height,
+                                               .twist = twist,
+                                               .taper = taper,
+                                               .bevel = bevel,
+                                               .rounding = rounding});
   });
 }
 

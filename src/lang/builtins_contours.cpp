@@ -9,6 +9,7 @@
 #include "lang/attributes.hpp"
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
+#include "lang/fields.hpp"
 
 namespace crt::lang {
 
@@ -72,8 +73,8 @@ Value svg(const Arguments& arguments) {
   }
 }
 
-/// Computes offset(contours, distance).
-Value offset(const Arguments& arguments) {
+/// Returns the contours that the first argument is.
+std::vector<Contour> first_contours(const Arguments& arguments) {
   AttributeType type;
   type.name = "contours";
   type.type = "List";
@@ -81,7 +82,12 @@ Value offset(const Arguments& arguments) {
                     .name_span = arguments.span(0),
                     .value_span = arguments.span(0),
                     .value = arguments[0]};
-  const std::vector<Contour> contours = contours_of(given, arguments.context);
+  return contours_of(given, arguments.context);
+}
+
+/// Computes offset(contours, distance).
+Value offset(const Arguments& arguments) {
+  const std::vector<Contour> contours = first_contours(arguments);
   const double distance = arguments.number(1);
   try {
     return list_of(arguments, offset_contours(contours, distance, work_of(arguments)));
@@ -92,8 +98,22 @@ Value offset(const Arguments& arguments) {
   }
 }
 
+/// Computes profileDistance(contours, x, y), which is a field.
+Value distance_from_profile(const Arguments& arguments) {
+  const std::vector<Contour> contours = first_contours(arguments);
+  const Field x = arguments.field(1);
+  const Field y = arguments.field(2);
+  std::uint64_t corners = 0;
+  for (const Contour& contour : contours) corners += contour.size();
+  // Each piece is compared with each other one.
+  arguments.context.spend(arguments.call, static_cast<std::size_t>(corners * corners / 16));
+  return make_field(arguments.context, arguments.span(0),
+                    [&] { return profile_distance(make_profile(contours), x, y); });
+}
+
 constexpr std::array table = {
     Builtin{"offset", "offset(contours, distance)", 2, 2, offset},
+    Builtin{"profileDistance", "profileDistance(contours, x, y)", 3, 3, distance_from_profile},
     Builtin{"svg", "svg(path, deviation, rule)", 1, 3, svg},
 };
 

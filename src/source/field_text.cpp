@@ -4,6 +4,8 @@
 #include <map>
 
 #include "core/geometry/implicit/field_node.hpp"
+#include "core/geometry/implicit/profile_distance.hpp"
+#include "core/geometry/profile/profile.hpp"
 #include "crt/error.hpp"
 #include "source/shapes.hpp"
 #include "text/format.hpp"
@@ -74,6 +76,10 @@ class FieldWriter {
       case FieldOperation::whole_power:
       case FieldOperation::power:
         return text::format("({} ** {})", text(*node.a), Syntax::number(node.number));
+      case FieldOperation::profile_distance:
+        return text::format("profileDistance({}, {}, {})",
+                            contour_lists(Syntax(SourceLanguage::script), *node.profile->profile()),
+                            text(*node.a), text(*node.b));
       default:
         return function(node);
     }

@@ -76,11 +76,7 @@ std::string profile_name(Program& program, const std::shared_ptr<const Profile>&
       if (contour.front().bulge != 0 && !closes_itself(contour)) add("arc_to", contour.front());
     }
   } else {
-    std::vector<std::string> lists;
-    lists.reserve(contours.size());
-    for (const Contour& contour : contours)
-      lists.push_back(contour_list(program.syntax(), contour));
-    const std::string list = program.syntax().list(lists);
+    const std::string list = contour_lists(program.syntax(), *profile);
     name = program.define("profile", "auto",
                           program.syntax().is_cpp()
                               ? text::format("make_profile(std::vector<Contour>{})", list)
@@ -188,6 +184,13 @@ std::string script_value(Program& program, const Extrusion& extrusion) {
 }
 
 }  // namespace
+
+std::string contour_lists(const Syntax& syntax, const Profile& profile) {
+  std::vector<std::string> lists;
+  lists.reserve(profile.contours().size());
+  for (const Contour& contour : profile.contours()) lists.push_back(contour_list(syntax, contour));
+  return syntax.list(lists);
+}
 
 ShapeCode shape_code(const Primitive& primitive) {
   return std::visit([](const auto& shape) { return code_of(shape); }, primitive);

@@ -13,6 +13,9 @@
 
 namespace crt::source {
 
+/// Returns the contours of a profile as a list in scripts, Python and C++.
+std::string contour_lists(const Syntax& syntax, const Profile& profile);
+
 /// An Argument is a field of a primitive, as C++ and as Python name it. C has those that Python
 /// has, in their order. An empty name says that there is none.
 struct Argument {

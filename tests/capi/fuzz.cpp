@@ -100,7 +100,10 @@ void Session::make_primitive() {
         crt_profile_line_to(profile, b[1], r);
         const double path[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         crt_status status = CRT_OK;
-        switch (input_.below(4)) {
+        switch (input_.below(5)) {
+          case 4:
+            status = crt_shaped_extrusion_create(profile, r, s, b[0], c[0], 0, out);
+            break;
           case 0:
             status = crt_extrusion_create(profile, a.data(), c.data(), out);
             break;

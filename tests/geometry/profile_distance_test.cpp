@@ -26,7 +26,7 @@ Contour star(Random& random, double x, double y) {
     const double angle = 2 * std::numbers::pi * (k + random.uniform(0.3, 0.7)) / corners;
     const double radius = random.uniform(0.5, 1);
     ProfilePoint corner{x + radius * std::cos(angle), y + radius * std::sin(angle)};
-    if (random.one_in(3)) corner.bulge = random.uniform(0, 0.3);
+    if (random.one_in(3)) corner.bulge = random.uniform(0.02, 0.3);
     result.push_back(corner);
   }
   return result;
