@@ -233,10 +233,19 @@ TEST_CASE("lids fit into boxes with their clearance, and hinges turn freely") {
   CHECK(number("thickness(boxBase(60, 40, 25), vec3(29, 24, 0), vec3(31, 24, 0))") ==
         doctest::Approx(1).epsilon(1e-6));
   CHECK(overlap("screwBoxBase(60, 40, 25)\nboxClosed(screwBoxLid(60, 40), 25)") == 0);
+  // The leaves alone take part, as a pin in a bore takes long to compare.
+  const auto leaf = [](int first, int side) {
+    return fmt::format("hingeLeaf(60, 25, 2, 3, 5, range({}, 5, 2), {}, 3, 3, 0.2)", first, side);
+  };
   for (const int angle : {0, 45, 180, 270}) {
     CAPTURE(angle);
-    CHECK(overlap(fmt::format("hinge(60, 25, {})", angle)) == 0);
+    CHECK(overlap(fmt::format("{}\n{} <rotate vec3(0, {}, 0)>", leaf(0, 1), leaf(1, -1), angle)) ==
+          0);
   }
+  CHECK(overlap(leaf(0, 1) + "\n" + leaf(0, -1)) > 0);
+  // Across the middle knuckle there are its wall, the clearance of the bore, and the pin.
+  CHECK(number("thickness(hinge(60, 25), vec3(-4, 30, 0), vec3(4, 30, 0))") ==
+        doctest::Approx(7 - 2 * 0.1).epsilon(1e-6));
 }
 
 TEST_CASE("a dimension's line is off its points, and a text is within its plate") {
