@@ -72,7 +72,8 @@ std::string page() {
   return text.str();
 }
 std::string with_single_blanks(std::string_view text) {
-  return std::regex_replace(std::string(text), std::regex("\\s+"), " ");
+  const std::string single = std::regex_replace(std::string(text), std::regex("\\s+"), " ");
+  return std::regex_replace(single, std::regex("(\\() | (\\))"), "$1$2");
 }
 
 }  // namespace
