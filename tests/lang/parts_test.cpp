@@ -255,6 +255,18 @@ TEST_CASE("a dimension's line is off its points, and a text is within its plate"
       "dimension(vec3(0, 0, 0), vec3(50, 0, 0), vec3(0, 10, 0), text -> \"x\")";
   CHECK(number("thickness(" + part + ", vec3(0, 10, 0), vec3(50, 10, 0))") ==
         doctest::Approx(50).epsilon(1e-3));
+  // Texts read from left to right: an L has nothing on its upper right.
+  const auto label = [](const std::string& facing, const std::string& from, const std::string& to) {
+    return number(
+        fmt::format("thickness(label(\"L\", vec3(0, 0, 0), facing -> {}, size -> 10,"
+                    " alignment -> \"left\"), {}, {}) > 0 ? 1 : 0",
+                    facing, from, to));
+  };
+  CHECK(label("vec3(0, 0, -1)", "vec3(0, 8, 0.5)", "vec3(3, 8, 0.5)") == 1);
+  CHECK(label("vec3(0, 0, -1)", "vec3(3.2, 8, 0.5)", "vec3(9, 8, 0.5)") == 0);
+  CHECK(label("vec3(0, 1, 0)", "vec3(0, -0.5, 8)", "vec3(3, -0.5, 8)") == 1);
+  CHECK(label("vec3(0, 1, 0)", "vec3(3.2, -0.5, 8)", "vec3(9, -0.5, 8)") == 0);
+  CHECK(label("vec3(0, 0, 1)", "vec3(0, 8, -0.5)", "vec3(-3, 8, -0.5)") == 1);
   CHECK(number("bounds(textPlate(\"ab\", 60, 25), 1e-3)[0].z") == doctest::Approx(-1).epsilon(0.1));
   CHECK(number("volume(textPlate(\"ab\", 60, 25, raised -> false), 1e-3)") <
         60 * 25 * 3 - (4 - std::numbers::pi) * 16 * 3);
