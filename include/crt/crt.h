@@ -660,6 +660,18 @@ CRT_API crt_status crt_ellipsoid_create(const double center[3], const double rad
 CRT_API crt_status crt_thread_create(const double from[3], const double to[3], double diameter,
                                      double pitch, int32_t left, crt_entity** out);
 /**
+ * Makes a round wire that winds about a line from one point to another, where its ends are cut
+ * flat. It is an implicit solid. Since 1.1.
+ * @param radius     from the line to the middle of the wire, from 1e-100 to 1e100
+ * @param thickness  the wire's radius, at most 0.9 of `radius`
+ * @param pitch      how far a turn leads: from a 10000th of the length on, with a tenth of it
+ *                   between the turns
+ * @param left       1 winds the other way than a common screw; 0 does not
+ */
+CRT_API crt_status crt_helix_create(const double from[3], const double to[3], double radius,
+                                    double thickness, double pitch, int32_t left,
+                                    crt_entity** out);
+/**
  * Makes a profile that is drawn out along z, from 0 to a height, and shaped on its way. It is an
  * implicit solid with the distance from the profile as its field. Contours must not cross or touch
  * one another. Since 1.1.

@@ -16,6 +16,7 @@
 #include <crt/error.hpp>
 #include <crt/field.hpp>
 #include <crt/file.hpp>
+#include <crt/helix.hpp>
 #include <crt/image.hpp>
 #include <crt/image_limits.hpp>
 #include <crt/implicit_shapes.hpp>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <crt/ellipsoid.hpp>
+#include <crt/helix.hpp>
 #include <crt/polyhedron.hpp>
 #include <crt/primitives.hpp>
 #include <crt/schema.hpp>
@@ -205,7 +206,7 @@ template <>
 inline constexpr auto table<ShapedExtrusion> = Table{
     "ShapedExtrusion",
     field("profile", &ShapedExtrusion::profile, made_by("make_profile"), required,
-          "as for an [Extrusion](#extrusion); its contours do not touch"),
+          "as for an [Extrusion](#extrusion), without touching"),
     field("height", &ShapedExtrusion::height, length, required, "along z, at least 0"),
     field("twist", &ShapedExtrusion::twist, any, {.degrees = "must be at most 360000 degrees"},
           "degrees by which the upper end is turned, from x to y"),
@@ -258,6 +259,20 @@ inline constexpr auto table<Thread> = Table{
 };
 
 template <>
+inline constexpr auto table<Helix> = Table{
+    "Helix",
+    field("from", &Helix::from, point, {.required = true, .c = "start"},
+          "where the line that it winds about begins"),
+    field("to", &Helix::to, apart_from("from"), {.required = true, .c = "end"}, "where that ends"),
+    field("radius", &Helix::radius, length, required, "from the line to the middle of the wire"),
+    field("thickness", &Helix::thickness, length, required,
+          "the wire's radius, at most 0.9 of `radius`"),
+    field("pitch", &Helix::pitch, length, required, "how far a turn leads"),
+    field("left", &Helix::left, any, {}, "winds the other way than a common screw"),
+    material<Helix>,
+};
+
+template <>
 inline constexpr auto table<Polyhedron> = Table{
     "Polyhedron",
     field("points", &Polyhedron::points, any, required, "the corners"),
@@ -274,7 +289,8 @@ inline constexpr auto table<Hull> = Table{
 };
 
 /// Lists them all.
-using MadeSolids = std::variant<Ellipsoid, ShapedExtrusion, Sweep, Tube, Thread, Polyhedron, Hull>;
+using MadeSolids =
+    std::variant<Ellipsoid, ShapedExtrusion, Sweep, Tube, Thread, Helix, Polyhedron, Hull>;
 
 }  // namespace crt::schema
 /// @endcond

@@ -102,6 +102,16 @@ FUNCTIONS = {
         "int32_t left",
         "crt_entity** out",
     ),
+    "crt_helix_create": (
+        "crt_status",
+        "const double from[3]",
+        "const double to[3]",
+        "double radius",
+        "double thickness",
+        "double pitch",
+        "int32_t left",
+        "crt_entity** out",
+    ),
     "crt_shaped_extrusion_create": (
         "crt_status",
         "const crt_profile* profile",

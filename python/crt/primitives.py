@@ -32,6 +32,7 @@ __all__ = [
     "Extrusion",
     "HalfPlane",
     "HeightField",
+    "Helix",
     "Hull",
     "Implicit",
     "Plane",
@@ -347,7 +348,8 @@ class Extrusion(_Primitive):
         a, b = self._vectors(start=start, end=end)
         contours = profiles.read_contours("Extrusion", profile)
         shown = {"profile": contours, "start": tuple(a), "end": tuple(b)}
-        self._create("crt_extrusion_create", material, id, shown, profiles.profile_of(contours), a, b)
+        handle = profiles.profile_of(contours)
+        self._create("crt_extrusion_create", material, id, shown, handle, a, b)
 
 
 class Revolution(_Primitive):
@@ -726,6 +728,38 @@ class Thread(_Primitive):
             "left": bool(left),
         }
         self._create("crt_thread_create", material, id, shown, a, b, across, turn, bool(left))
+
+
+class Helix(_Primitive):
+    """A Helix is a round wire that winds about a line from the start to the end, where it is cut
+    flat. `radius` leads from the line to the middle of the wire, and `thickness` is the wire's
+    radius. `left` winds the other way than a common screw."""
+
+    start = _Given[Vector]()
+    end = _Given[Vector]()
+    radius = _Given[float]()
+    thickness = _Given[float]()
+    pitch = _Given[float]()
+    left = _Given[bool]()
+
+    def __init__(
+        self,
+        start: Point,
+        end: Point,
+        radius: SupportsFloat,
+        thickness: SupportsFloat,
+        pitch: SupportsFloat,
+        left: bool = False,
+        *,
+        material: AnyMaterial | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        a, b = self._vectors(start=start, end=end)
+        given = {"radius": radius, "thickness": thickness, "pitch": pitch}
+        numbers = {name: self._positive(value, name) for name, value in given.items()}
+        shown: dict[str, Any] = {"start": tuple(a), "end": tuple(b), **numbers}
+        shown["left"] = bool(left)
+        self._create("crt_helix_create", material, id, shown, a, b, *numbers.values(), bool(left))
 
 
 class Polyhedron(_Primitive):

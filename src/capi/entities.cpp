@@ -125,6 +125,11 @@ crt_status crt_thread_create(const double from[3], const double to[3], double di
   return create_of<crt::Thread>(out, from, to, diameter, pitch, left != 0);
 }
 
+crt_status crt_helix_create(const double from[3], const double to[3], double radius,
+                            double thickness, double pitch, int32_t left, crt_entity** out) {
+  return create_of<crt::Helix>(out, from, to, radius, thickness, pitch, left != 0);
+}
+
 crt_status crt_rounded_box_create(const double corner_a[3], const double corner_b[3], double radius,
                                   crt_entity** out) {
   return create_of<crt::RoundedBox>(out, corner_a, corner_b, radius);

@@ -149,8 +149,9 @@ void Session::make_primitive() {
         return crt_blob_create(parts, input_.below(3), 0.5, out);
       }
       case 16:
-        return input_.below(2) != 0 ? crt_superellipsoid_create(r, s, out)
-                                    : crt_thread_create(a.data(), b.data(), r, s, 0, out);
+        return input_.below(2) != 0   ? crt_superellipsoid_create(r, s, out)
+               : input_.below(2) != 0 ? crt_thread_create(a.data(), b.data(), r, s, 0, out)
+                                      : crt_helix_create(a.data(), b.data(), r, s, c[0], 1, out);
       case 17: {
         auto custom = scrambled<crt_custom>(input_, crt_custom_init);
         crt::test::describe_any(input_, a, b, custom);

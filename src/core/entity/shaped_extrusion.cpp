@@ -17,7 +17,7 @@ namespace crt {
 
 namespace {
 
-void check(const ShapedExtrusion& solid) {
+void check_shape(const ShapedExtrusion& solid) {
   core::check_fields(solid);
   constexpr double most_turns = 1000;
   constexpr double largest_taper = 1000;
@@ -90,7 +90,7 @@ Entity shaped(const ShapedExtrusion& solid) {
 }  // namespace
 
 ShapedExtrusion::operator Entity() const {
-  check(*this);
+  check_shape(*this);
   const Entity solid = shaped(*this);
   return material ? solid.with_material(*material) : solid;
 }

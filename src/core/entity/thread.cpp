@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/entity/cosine_to_helix.hpp"
 #include "core/entity/placed.hpp"
 #include "core/geometry/angles.hpp"
 #include "core/geometry/check_fields.hpp"
@@ -30,15 +31,13 @@ void check(const Thread& thread) {
 }
 
 /// Returns the thread along z in units of its pitch. Angles are from x towards y.
-Implicit upright(double diameter, double length, bool is_left) {
+Implicit upright_thread(double diameter, double length, bool is_left) {
   const double radius = 0.5 * diameter;
   const double height = 0.5 * std::numbers::sqrt3;  // of the triangle
-  const Field around = 2 * std::numbers::pi * Field::z();
-  const Field distance = sqrt(Field::x() * Field::x() + Field::y() * Field::y());
-  const Field across = is_left ? sin(around) * Field::y() : -(sin(around) * Field::y());
+  const Field distance = core::distance_from_axis();
   // Near the axis, where there is no angle, the core is solid anyway.
   const double inner = radius - 5.0 / 8 * height;
-  const Field cosine = (cos(around) * Field::x() + across) / max(distance, 0.5 * inner);
+  const Field cosine = core::cosine_to_helix(distance, is_left, 0.5 * inner);
   const Field share = acos(min(max(cosine, -1), 1)) / std::numbers::pi;
   const Field flank = radius + height / 8 - height * share;
   const Field surface = min(max(flank, inner), radius);
@@ -53,8 +52,9 @@ Implicit upright(double diameter, double length, bool is_left) {
 Thread::operator Entity() const {
   check(*this);
   const auto& [zero, quarter, along] = core::frame_about(to - from);
-  const Entity solid = core::placed(upright(diameter / pitch, glm::length(to - from) / pitch, left),
-                                    pitch * zero, pitch * quarter, pitch * along, from);
+  const Entity solid =
+      core::placed(upright_thread(diameter / pitch, glm::length(to - from) / pitch, left),
+                   pitch * zero, pitch * quarter, pitch * along, from);
   return material ? solid.with_material(*material) : solid;
 }
 
