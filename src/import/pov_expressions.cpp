@@ -332,37 +332,48 @@ PovColor PovScene::color_value() {
 }
 
 PovValue PovScene::array() {
-  const auto elements = std::make_shared<PovArray>();
-  if (take_sign("[")) {
+  std::vector<std::size_t> sizes;
+  double all = 1;
+  while (take_sign("[")) {
     const double size = float_expression();
     expect("]", "behind the size of an array");
-    if (!(size >= 1) || size > static_cast<double>(most_elements))
+    all *= size;
+    if (!(size >= 1) || all > static_cast<double>(most_elements) || sizes.size() > 5)
       throw Failure(place(), "this is no size of an array", ErrorCode::limit);
-    elements->resize(static_cast<std::size_t>(size));
-    count(elements->size());
+    sizes.push_back(static_cast<std::size_t>(size));
   }
-  if (peek().is_sign("[")) {
-    const PovValue inner = array();
-    for (PovValue& element : *elements) {
-      const auto* const held = inner.get<std::shared_ptr<PovArray>>();
-      count((*held)->size());
-      element = {std::make_shared<PovArray>(**held)};
-    }
-    return {elements};
-  }
-  if (take_sign("{")) {
-    for (std::size_t i = 0; !take_sign("}"); ++i) {
-      if (i >= most_elements) fail("this array has too many elements");
-      PovValue value = peek().is_sign("{") ? array() : declared_value("");
-      if (i < elements->size()) {
-        (*elements)[i] = std::move(value);
-      } else {
-        elements->push_back(std::move(value));
-      }
-      take_sign(",");
-    }
-  }
+  count(static_cast<std::uint64_t>(all));
+  const auto elements = std::make_shared<PovArray>(array_of(sizes, 0));
+  if (peek().is_sign("{")) fill(*elements);
   return {elements};
+}
+
+PovArray PovScene::array_of(const std::vector<std::size_t>& sizes, std::size_t dimension) {
+  PovArray elements(dimension < sizes.size() ? sizes[dimension] : 0);
+  if (dimension + 1 < sizes.size()) {
+    for (PovValue& element : elements)
+      element = {std::make_shared<PovArray>(array_of(sizes, dimension + 1))};
+  }
+  return elements;
+}
+
+void PovScene::fill(PovArray& elements) {
+  if (++depth_ > most_depth)
+    throw Failure(place(), "brackets lie too deep in one another", ErrorCode::limit);
+  expect("{", "before the elements of an array");
+  for (std::size_t i = 0; !take_sign("}"); ++i) {
+    if (i >= most_elements) fail("this array has too many elements");
+    if (i >= elements.size()) elements.emplace_back();
+    if (!peek().is_sign("{")) {
+      elements[i] = declared_value("");
+    } else {
+      if (!elements[i].get<std::shared_ptr<PovArray>>())
+        elements[i] = {std::make_shared<PovArray>()};
+      fill(**elements[i].get<std::shared_ptr<PovArray>>());
+    }
+    take_sign(",");
+  }
+  --depth_;
 }
 
 PovValue PovScene::declared_value(const std::string& name) {

@@ -52,6 +52,8 @@ class PovScene : private PovStream {
   PovValue vector_literal();
   PovValue color();
   PovValue array();
+  static PovArray array_of(const std::vector<std::size_t>& sizes, std::size_t dimension);
+  void fill(PovArray& elements);
   PovValue named(const PovToken& name);
   Vec3 vec3();
   PovVector numbers(std::size_t least);

@@ -4,7 +4,9 @@ CRT is the command. Each part is evaluated by `openscad` (which has to be instal
 to a mesh, and imported by `crt import` twice: with facets, which must give the same solid, and with
 round solids. FOLDER keeps what openscad has made, so that a second run is quick. Without parts it
 takes the examples that come with OpenSCAD, which have to be in a folder that may be written to. A
-table in Markdown goes to standard output, and with --json the numbers that openscad has.
+table in Markdown goes to standard output. With --known a line for each part goes to a file: its
+name, its volume, and the corners of its box, as openscad has them. tests/import/known.txt is that of
+the trees in tests/import/parts.
 """
 
 import argparse
@@ -27,6 +29,7 @@ class Solid:
     volume: float
     lower: list[float]
     upper: list[float]
+    width: float = 0.0  # of the interval that surely holds the volume
 
     def size(self) -> float:
         return max(b - a for a, b in zip(self.lower, self.upper, strict=True))
@@ -94,7 +97,8 @@ def measured(crt: str, script: pathlib.Path) -> Solid | None:
     if "volume" not in entity:
         return None
     lower, upper = in_openscad(entity["bounds"]["lower"], entity["bounds"]["upper"])
-    return Solid(sum(entity["volume"]) / 2, lower, upper)
+    low, high = entity["volume"]
+    return Solid((low + high) / 2, lower, upper, high - low)
 
 
 def imported(crt: str, part: pathlib.Path, tree: pathlib.Path, row: Row, facets: bool) -> Solid | None:
@@ -119,7 +123,9 @@ def imported(crt: str, part: pathlib.Path, tree: pathlib.Path, row: Row, facets:
 def compare(crt: str, part: pathlib.Path, folder: pathlib.Path) -> Row:
     row = Row(part.stem)
     tree, mesh = folder / f"{part.stem}.csg", folder / f"{part.stem}.stl"
-    if not openscad(part, tree):
+    if part.suffix == ".csg":
+        tree = part
+    elif not openscad(part, tree):
         row.notes.append("openscad makes no tree of it")
         return row
     if openscad(part, mesh):
@@ -134,7 +140,8 @@ def difference(solid: Solid | None, mesh: Solid | None) -> str:
         return "-"
     if mesh is None:
         return "no mesh"
-    return f"{(solid.volume - mesh.volume) / mesh.volume:+.1e}"
+    share = (solid.volume - mesh.volume) / mesh.volume
+    return f"{share:+.1e} ± {solid.width / 2 / mesh.volume:.0e}"
 
 
 def bounds_difference(solid: Solid | None, mesh: Solid | None) -> str:
@@ -149,13 +156,13 @@ def main() -> None:
     parser.add_argument("crt")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("parts", nargs="*", type=pathlib.Path)
-    parser.add_argument("--json", type=pathlib.Path)
+    parser.add_argument("--known", type=pathlib.Path)
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     parts = arguments.parts or sorted(EXAMPLES.glob("*/*.scad"))
     print("| part | lines | volume with facets | bounds | volume of round solids | notes |")
     print("| --- | --- | --- | --- | --- | --- |")
-    known = {}
+    known = []
     for part in parts:
         row = compare(arguments.crt, part.resolve(), arguments.folder.resolve())
         cells = [
@@ -168,9 +175,10 @@ def main() -> None:
         ]
         print("| " + " | ".join(cells) + " |", flush=True)
         if row.mesh is not None:
-            known[row.name] = [row.mesh.volume, row.mesh.lower, row.mesh.upper]
-    if arguments.json:
-        arguments.json.write_text(json.dumps(known, indent=1) + "\n")
+            numbers = [row.mesh.volume, *row.mesh.lower, *row.mesh.upper]
+            known.append(" ".join([row.name, *(f"{number:.9g}" for number in numbers)]) + "\n")
+    if arguments.known:
+        arguments.known.write_text("".join(known))
 
 
 if __name__ == "__main__":
