@@ -28,11 +28,11 @@ int Notes::add_file(const std::string& name, std::string text) {
 }
 
 void Notes::lost(const Place& place, const std::string& message) {
-  add(partial_ ? Severity::warning : Severity::error, ErrorCode::unsupported, place, message);
+  add(partial_ ? Severity::warning : Severity::error, ErrorCode::script, place, message);
 }
 
 void Notes::differs(const Place& place, const std::string& message) {
-  add(Severity::warning, ErrorCode::unsupported, place, message);
+  add(Severity::warning, ErrorCode::script, place, message);
 }
 
 void Notes::failed(const Failure& failure) {

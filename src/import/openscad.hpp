@@ -85,12 +85,18 @@ class OpenScad {
   SharedSolid minkowski(const CsgNode& node);
 
   bool is_faceted(const CsgNode& node) const;
+  /// Returns the polyhedron, and throws Error (limit) if all together have too many facets.
+  SharedSolid made_of(const Faces& faces);
+  /// Returns the solid of a node that has none within it.
+  SharedSolid leaf(const CsgNode& node, bool has_color);
 
   Notes& notes_;
   ScriptWriter& writer_;
   const ImportOptions& options_;
   std::string name_;
   bool has_plain_ = false;
+  std::size_t facets_ = 0;
+  std::size_t regions_ = 0;
 
   friend class HullReader;
 };

@@ -36,7 +36,7 @@ SharedSolid of_contours(const Region& region, const Make& make) {
   std::vector<SharedSolid> solids, holes;
   for (const Contour& contour : region) {
     const bool hole = is_hole(contour);
-    (hole ? holes : solids).push_back(make_polyhedron(make(contour, hole)));
+    (hole ? holes : solids).push_back(make(contour, hole));
   }
   std::vector<SharedSolid> parts{make_sum(std::move(solids))};
   parts.insert(parts.end(), holes.begin(), holes.end());
@@ -153,7 +153,7 @@ SharedSolid OpenScad::tapered(const CsgNode& node, const Twist& asked) {
   twist.slices = slices >= 1 ? static_cast<int>(std::min(slices, 1.0 * most_fragments))
                              : slices_of(straight, twist, resolution_of(node));
   return of_contours(straight, [&](const Contour& contour, bool hole) {
-    return twisted_facets(contour, twist, hole);
+    return made_of(twisted_facets(contour, twist, hole));
   });
 }
 
@@ -182,7 +182,7 @@ SharedSolid OpenScad::rotate_extrude(const CsgNode& node) {
     const double pieces = fragments_of(bounds.high_x, resolution_of(node)) * std::abs(angle) / 360;
     const int fragments = std::max(1, static_cast<int>(pieces));
     const SharedSolid solid = of_contours(profile, [&](const Contour& contour, bool) {
-      return revolved_facets(contour, angle, fragments);
+      return made_of(revolved_facets(contour, angle, fragments));
     });
     return start == 0 ? solid : make_changed(solid, {"rotate " + vector_text({0, 0, start})});
   }

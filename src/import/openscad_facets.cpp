@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <crt/elementary.hpp>
+#include <crt/error.hpp>
 #include <cstdint>
 #include <map>
 #include <numbers>
 #include <tuple>
+
+#include "text/format.hpp"
 
 namespace crt::importing {
 
@@ -24,7 +27,7 @@ class FaceBuilder {
     return place->second;
   }
 
-  void face(std::vector<std::uint32_t> corners) {
+  void face(const std::vector<std::uint32_t>& corners) {
     std::vector<std::uint32_t> kept;
     for (const std::uint32_t corner : corners)
       if (kept.empty() || kept.back() != corner) kept.push_back(corner);
@@ -38,6 +41,12 @@ class FaceBuilder {
   Faces made_;
   std::map<std::tuple<double, double, double>, std::uint32_t> places_;
 };
+
+/// Throws before there is no end to the making of points.
+void check_facets(double count) {
+  if (count > static_cast<double>(most_facets))
+    throw Error(ErrorCode::limit, text::format("it would have over {} facets", most_facets));
+}
 
 double helix_length(double radius, double height, double radians) {
   return elementary::hypot(radius * radians, height);
@@ -97,6 +106,7 @@ int fragments_of(double radius, const Resolution& resolution) {
 
 Faces sphere_facets(double radius, int fragments) {
   const int rings = (fragments + 1) / 2;
+  check_facets(static_cast<double>(rings) * fragments);
   FaceBuilder builder;
   std::vector<std::vector<std::uint32_t>> circles;
   for (int ring = 0; ring < rings; ++ring) {
@@ -151,6 +161,7 @@ int slices_of(const Region& region, const Twist& twist, const Resolution& resolu
 }
 
 Faces twisted_facets(const Contour& contour, const Twist& twist, bool is_hole) {
+  check_facets(static_cast<double>(contour.size()) * (twist.slices + 1.0));
   FaceBuilder builder;
   std::vector<std::vector<Vec3>> levels;
   for (int slice = 0; slice <= twist.slices; ++slice) {
@@ -165,7 +176,7 @@ Faces twisted_facets(const Contour& contour, const Twist& twist, bool is_hole) {
   const auto end = [&](const std::vector<Vec3>& level) {
     std::vector<std::uint32_t> corners;
     for (const Vec3& p : level) corners.push_back(builder.point(p));
-    builder.face(std::move(corners));
+    builder.face(corners);
   };
   end(levels.front());
   const bool is_flat = twist.scale_x == 0 || twist.scale_y == 0;
@@ -201,6 +212,7 @@ Faces twisted_facets(const Contour& contour, const Twist& twist, bool is_hole) {
 }
 
 Faces revolved_facets(const Contour& contour, double degrees, int fragments) {
+  check_facets(static_cast<double>(contour.size()) * (fragments + 1.0));
   FaceBuilder builder;
   const bool is_closed = degrees == 360;
   std::vector<std::vector<std::uint32_t>> rings;

@@ -21,6 +21,9 @@ inline constexpr double most_meant_sides = 8;
 /// What would have more pieces than this is refused.
 inline constexpr int most_fragments = 100000;
 
+/// One solid has at most so many facets.
+inline constexpr std::size_t most_facets = 200000;
+
 /// Returns how many pieces a full circle has.
 int fragments_of(double radius, const Resolution& resolution);
 

@@ -15,6 +15,8 @@ namespace crt::importing {
 
 namespace {
 
+constexpr std::size_t most_regions = 50000;
+
 /// The em of a font in the size that OpenSCAD gives letters: 100 dots an inch by 72 points.
 constexpr double em_of_size = 100.0 / 72;
 
@@ -98,6 +100,9 @@ Region region_of(const Section& section) {
 }  // namespace
 
 Region OpenScad::guarded(const CsgNode& node, const std::function<Region()>& make) {
+  if (++regions_ > most_regions)
+    throw Failure(node.place, text::format("over {} regions are made", most_regions),
+                  ErrorCode::limit);
   try {
     return make();
   } catch (const Error& error) {
@@ -258,8 +263,9 @@ Region OpenScad::projection(const CsgNode& node) {
   const BoundingBox box = bounding_box(*entity);
   const Vec3 size = box.upper - box.lower;
   const double deviation = 1e-6 * std::max({size.x, size.y, size.z});
-  Section cut = section(*entity, {0, 0, -1}, 0, deviation);
-  if (cut.empty()) cut = section(*entity, {0, 0, 1}, 0, deviation);
+  const MeasureOptions options{.seconds = 20};
+  Section cut = section(*entity, {0, 0, -1}, 0, deviation, options);
+  if (cut.empty()) cut = section(*entity, {0, 0, 1}, 0, deviation, options);
   if (!(cut.deviation <= deviation))
     notes_.lost(node.place, "this section is not known well enough");
   return region_of(cut);

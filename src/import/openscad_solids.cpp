@@ -18,6 +18,8 @@ bool is_one_of(std::string_view name, const std::array<std::string_view, N>& nam
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+constexpr std::size_t most_facets_of_all = 1000000;
+
 constexpr std::array<std::string_view, 4> flat_names = {"square", "circle", "polygon", "text"};
 constexpr std::array<std::string_view, 7> solid_names = {
     "cube", "sphere", "cylinder", "polyhedron", "linear_extrude", "rotate_extrude", "surface"};
@@ -115,6 +117,23 @@ SharedSolid OpenScad::solid(const CsgNode& node, bool has_color) {
     return node.name == "difference" ? make_difference(std::move(parts))
                                      : make_intersection(std::move(parts));
   }
+  try {
+    return leaf(node, has_color);
+  } catch (const Error& error) {
+    notes_.lost(node.place, text::format("'{}' is left out: {}", node.name, error.what()));
+    return nullptr;
+  }
+}
+
+SharedSolid OpenScad::made_of(const Faces& faces) {
+  facets_ += faces.faces.size();
+  if (facets_ > most_facets_of_all)
+    throw Error(ErrorCode::limit,
+                text::format("all solids together have over {} facets", most_facets_of_all));
+  return make_polyhedron(faces);
+}
+
+SharedSolid OpenScad::leaf(const CsgNode& node, bool has_color) {
   if (node.name == "cube") return cube(node);
   if (node.name == "sphere") return sphere(node);
   if (node.name == "cylinder") return cylinder(node);
@@ -152,7 +171,7 @@ SharedSolid OpenScad::sphere(const CsgNode& node) {
   const double radius = node.number("r", 1);
   if (!(radius > 0) || !std::isfinite(radius)) return nullptr;
   if (is_faceted(node))
-    return make_polyhedron(sphere_facets(radius, fragments_of(radius, resolution_of(node))));
+    return made_of(sphere_facets(radius, fragments_of(radius, resolution_of(node))));
   return make_object("Sphere", {attribute("center", Vec3(0, 0, 0)), attribute("radius", radius)});
 }
 
@@ -165,7 +184,7 @@ SharedSolid OpenScad::cylinder(const CsgNode& node) {
   const double low = node.flag("center") ? -height / 2 : 0, high = low + height;
   if (is_faceted(node)) {
     const int fragments = fragments_of(std::max(r1, r2), resolution_of(node));
-    if (r1 != r2) return make_polyhedron(frustum_facets(low, r1, high, r2, fragments));
+    if (r1 != r2) return made_of(frustum_facets(low, r1, high, r2, fragments));
     const SharedSolid prism = make_object(
         "Extrusion", {attribute("profile", profile_text({circle_contour(0, 0, r1, fragments)})),
                       attribute("height", height)});
@@ -203,7 +222,7 @@ SharedSolid OpenScad::polyhedron(const CsgNode& node) {
     }
     if (corners.size() >= 3) made.faces.push_back(std::move(corners));
   }
-  return make_polyhedron(made);
+  return made_of(made);
 }
 
 SharedSolid OpenScad::imported(const CsgNode& node) {
@@ -272,7 +291,7 @@ SharedSolid OpenScad::resized(const CsgNode& node, bool has_color) {
       notes_.lost(node.place, "this resize() cannot be made, as its solid cannot");
       return nullptr;
     }
-    const BoundingBox box = tight_bounding_box(*entity, {.relative_width = 1e-9});
+    const BoundingBox box = tight_bounding_box(*entity, {.relative_width = 1e-9, .seconds = 20});
     const Vec3 factors = resize_factors(node, box.upper - box.lower);
     Matrix matrix{};
     for (std::size_t axis = 0; axis < 3; ++axis)

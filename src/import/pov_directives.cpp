@@ -30,6 +30,15 @@ bool stays_inside(const std::filesystem::path& path) {
   return true;
 }
 
+/// Arrays are values: who changes one changes no other.
+PovValue copied(PovValue value) {
+  const auto* const array = value.get<std::shared_ptr<PovArray>>();
+  if (!array) return value;
+  const auto copy = std::make_shared<PovArray>(**array);
+  for (PovValue& element : *copy) element = copied(std::move(element));
+  return {copy};
+}
+
 }  // namespace
 
 double PovStream::condition() {
@@ -299,7 +308,7 @@ void PovStream::follow_declare(bool is_local) {
   }
   expect("=", "behind a name that is declared");
   hold_ = frames_.size();
-  PovValue value = declared_value(name.text);
+  PovValue value = copied(declared_value(name.text));
   take_sign(";");
   give_back();
   if (place) {

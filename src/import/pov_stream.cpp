@@ -8,7 +8,7 @@ namespace crt::importing {
 
 namespace {
 
-constexpr std::uint64_t most_steps = 50'000'000;
+constexpr std::uint64_t most_steps = 20'000'000;
 
 }  // namespace
 

@@ -17,6 +17,9 @@ namespace crt::importing {
 
 namespace {
 
+constexpr std::uint64_t most_work = 1'000'000'000;  // steps of a few nanoseconds
+constexpr double most_comparisons = 1e9;
+
 std::string path_of(const Region& region) {
   std::string path;
   for (const Contour& contour : region) {
@@ -80,7 +83,13 @@ bool is_inside(const std::vector<CurvePoint>& polygon, const CurvePoint& p) {
 }
 
 Region nonzero(const Region& contours) {
-  return oriented(svg_path_contours(path_of(contours)));
+  PathOptions options;
+  std::uint64_t done = 0;
+  options.work = [&](std::uint64_t work) {
+    done += work;
+    if (done > most_work) throw Error(ErrorCode::limit, "its contours cross too often");
+  };
+  return oriented(svg_path_contours(path_of(contours), options));
 }
 
 /// Returns what is outside of a region, within a frame around all.
@@ -139,6 +148,10 @@ Contour reversed(const Contour& contour) {
 Region oriented(Region contours) {
   std::vector<std::vector<CurvePoint>> polygons;
   for (const Contour& contour : contours) polygons.push_back(chords_of(contour));
+  double comparisons = 0;
+  for (const auto& polygon : polygons)
+    comparisons += static_cast<double>(polygon.size() * contours.size());
+  if (comparisons > most_comparisons) throw Error(ErrorCode::limit, "it has too many contours");
   Region result;
   for (std::size_t i = 0; i < contours.size(); ++i) {
     const double area = area_of(contours[i]);

@@ -12,6 +12,8 @@ namespace crt::importing {
 
 namespace {
 
+constexpr std::size_t most_discs = 20000;
+
 struct Direction {
   double x = 0;
   double y = 0;
@@ -156,6 +158,7 @@ bool holds(const Disc& a, const Disc& b) {
 }
 
 std::vector<Disc> without_held(std::vector<Disc> discs) {
+  if (discs.size() > most_discs) throw Error(ErrorCode::limit, "a hull has too many corners");
   std::sort(discs.begin(), discs.end(), [](const Disc& a, const Disc& b) {
     return a.radius != b.radius ? a.radius > b.radius : a.x != b.x ? a.x < b.x : a.y < b.y;
   });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <crt/error.hpp>
 #include <utility>
 
 #include "text/format.hpp"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::size_t most_of_line = 90;  // columns of what stands on one line
 constexpr std::size_t worth_a_name = 48;  // columns of a lone object that is used again
 constexpr int most_depth_of_expression = 6;
+constexpr std::size_t most_bytes = std::size_t{60} << 20;
 
 bool is_one_line(const std::string& text) {
   return text.find('\n') == std::string::npos;
@@ -171,6 +173,7 @@ ScriptWriter::Written ScriptWriter::named(const Solid& solid, const Written& wri
                                           Known& known) {
   std::string wish = solid.name;
   if (wish.empty()) wish = solid.kind == Solid::Kind::object ? solid.type : "solid";
+  if (size() > most_bytes) throw Error(ErrorCode::limit, "the script would be too long");
   known.name = free_name(wish);
   definitions_ += known.name + " = " + written.text + "\n";
   return {known.name};

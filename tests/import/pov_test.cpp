@@ -159,7 +159,7 @@ TEST_CASE("what is not understood is listed with its place") {
 }
 
 TEST_CASE("a scene that never ends, or is too deep, is an error") {
-  CHECK(messages_of("#while (1)\n#end").find("takes over 50000000 steps") != std::string::npos);
+  CHECK(messages_of("#while (1)\n#end").find("takes over 20000000 steps") != std::string::npos);
   CHECK(messages_of("#macro A() A() #end\nA()").find("too deep") != std::string::npos);
   std::string deep = "sphere { 0, ";
   for (int i = 0; i < 10000; ++i) deep += "(";

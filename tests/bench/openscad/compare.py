@@ -5,8 +5,8 @@ to a mesh, and imported by `crt import` twice: with facets, which must give the 
 round solids. FOLDER keeps what openscad has made, so that a second run is quick. Without parts it
 takes the examples that come with OpenSCAD, which have to be in a folder that may be written to. A
 table in Markdown goes to standard output. With --known a line for each part goes to a file: its
-name, its volume, and the corners of its box, as openscad has them. tests/import/known.txt is that of
-the trees in tests/import/parts.
+name, its volume, and the corners of its box, as openscad has them. tests/import/known.txt is that
+of the trees in tests/import/parts.
 """
 
 import argparse
@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 
 EXAMPLES = pathlib.Path("/usr/share/openscad/examples")
 SECONDS = 300  # that openscad or crt may take for one part
-RELATIVE_WIDTH = 1e-6  # of volumes that crt measures
+RELATIVE_WIDTH = 1e-5  # of volumes that crt measures
 
 
 @dataclass
@@ -90,7 +90,7 @@ def in_openscad(lower: list[float], upper: list[float]) -> tuple[list[float], li
 def measured(crt: str, script: pathlib.Path) -> Solid | None:
     """Measures the first entity of a script, which is the part."""
     words = [crt, "measure", str(script), "--volume", "--bounds", "--json", "-q"]
-    result = run([*words, "--relative-width", str(RELATIVE_WIDTH), "--seconds", "20"])
+    result = run([*words, "--relative-width", str(RELATIVE_WIDTH), "--seconds", "8"])
     if result.returncode != 0:
         return None
     entity = json.loads(result.stdout)["entities"][0]
@@ -101,7 +101,9 @@ def measured(crt: str, script: pathlib.Path) -> Solid | None:
     return Solid((low + high) / 2, lower, upper, high - low)
 
 
-def imported(crt: str, part: pathlib.Path, tree: pathlib.Path, row: Row, facets: bool) -> Solid | None:
+def imported(
+    crt: str, part: pathlib.Path, tree: pathlib.Path, row: Row, facets: bool
+) -> Solid | None:
     """Imports a part beside its own files, and measures it."""
     local = part.parent / f"{part.stem}.imported.csg"
     script = local.with_suffix(".crt")
