@@ -29,12 +29,12 @@ struct CsgNode {
 
   /// Returns the argument of a name, or the first one without a name for "". Returns an undefined
   /// value if there is none.
-  const CsgValue& argument(std::string_view name) const;
-  double number(std::string_view name, double usual) const;
-  bool flag(std::string_view name) const { return number(name, 0) != 0; }
-  std::string text(std::string_view name) const { return argument(name).text; }
+  const CsgValue& argument(std::string_view called) const;
+  double number(std::string_view called, double usual) const;
+  bool flag(std::string_view called) const { return number(called, 0) != 0; }
+  std::string text(std::string_view called) const { return argument(called).text; }
   /// Returns a list of at least `least` numbers, or nothing if it is something else.
-  std::optional<std::vector<double>> numbers(std::string_view name, std::size_t least) const;
+  std::optional<std::vector<double>> numbers(std::string_view called, std::size_t least) const;
 };
 
 /// Returns the numbers of a list, or nothing if there are other items, or fewer.

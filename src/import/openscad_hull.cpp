@@ -376,7 +376,7 @@ SharedSolid OpenScad::minkowski(const CsgNode& node) {
         return nullptr;
       }
       std::vector<Vec3> next;
-      if (sums.size() * shape.points.size() > 1000000)
+      if (sums.size() * shape.points.size() > 100000)
         throw Error(ErrorCode::limit, "it has too many corners");
       for (const Vec3& sum : sums)
         for (const Vec3& point : shape.points) next.push_back(sum + point);

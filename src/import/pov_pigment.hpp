@@ -18,6 +18,9 @@ struct PovPattern {
 /// Returns the pattern of a name, or nothing if it is none that is understood.
 const PovPattern* pov_pattern(const std::string& name);
 
+/// Returns the beginning of a Checker, up to its scale.
+std::string checker_text(const PovColor& a, const PovColor& b);
+
 /// Returns "rgb(1, 0.5, 0)", with no channel below 0.
 std::string rgb_text(const PovColor& color);
 

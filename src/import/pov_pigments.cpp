@@ -58,6 +58,10 @@ const PovPattern* pov_pattern(const std::string& name) {
   return found == std::end(patterns) ? nullptr : found;
 }
 
+std::string checker_text(const PovColor& a, const PovColor& b) {
+  return text::format("Checker {{ colorA -> {} colorB -> {}", rgb_text(a), rgb_text(b));
+}
+
 std::string rgb_text(const PovColor& c) {
   return text::format("rgb({}, {}, {})", number_text(std::max(c.red, 0.0)),
                       number_text(std::max(c.green, 0.0)), number_text(std::max(c.blue, 0.0)));
@@ -154,8 +158,9 @@ void PovScene::read_pigment(PovPigment& pigment) {
     const PovColor b = colors.size() < 2 ? green : colors[1];
     pigment.stops = {{0, a}, {1, b}};
     pigment.color = a;
-    pigment.pattern =
-        text::format("Checker {{ colorA -> {} colorB -> {}", rgb_text(a), rgb_text(b));
+    pigment.pattern = checker_text(a, b);
+    // A face between two cubes belongs to the upper one, as it does in POV-Ray.
+    offset -= Vec3(1e-6, 1e-6, 1e-6) * size;
   } else if (pattern) {
     if (pigment.stops.empty()) pigment.stops = {{0, {}}, {1, {1, 1, 1}}};
     const Stops stops = tidied(pigment.stops);

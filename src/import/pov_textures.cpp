@@ -56,9 +56,12 @@ bool PovScene::texture_word(PovObject& object, PovTexture& texture, const std::s
 
 void PovScene::read_texture(PovTexture& texture) {
   expect("{", "behind 'texture'");
-  bool is_first = true;
+  std::vector<PovTexture> parts;  // of a pattern of textures
+  bool is_checker = false;
+  double scale = 1;
   while (!take_sign("}")) {
     const PovToken token = peek();
+    if (take_sign(",")) continue;
     if (token.kind != PovToken::Kind::word) fail("a word is expected in a texture");
     const PovValue* const value = find(token.text);
     PovObject ignored;
@@ -68,26 +71,30 @@ void PovScene::read_texture(PovTexture& texture) {
       texture_name_ = token.text;
     } else if (value && value->get<PovUnknown>()) {
       take();
-    } else if (is_first && pov_pattern(token.text) && behind()) {
-      // A pattern here is about textures: the first one stands for all.
-      notes().differs(token.place, "of a pattern of textures the first one is taken");
+    } else if (pov_pattern(token.text) || token.is_word("tiles")) {
       take();
+      is_checker = token.text == "checker" || token.text == "tiles";
+      if (!is_checker)
+        notes().differs(token.place, "of a pattern of textures the first one is taken");
       if (token.text == "gradient") vec3();
     } else if (token.is_word("texture")) {
       take();
-      if (is_first) {
-        read_texture(texture);
-      } else {
-        PovTexture other;
-        read_texture(other);
-      }
-      take_sign(",");
+      read_texture(parts.emplace_back(default_));
+    } else if (token.is_word("tile2")) {
+      take();
     } else if (!texture_word(ignored, texture, token.text)) {
-      if (transform(token.text)) continue;
-      unknown_word("a texture");
+      const auto matrix = transform(token.text);
+      if (!matrix) unknown_word("a texture");
+      if (matrix) scale *= std::cbrt(std::abs(determinant(*matrix)));
     }
-    is_first = false;
   }
+  if (parts.empty()) return;
+  texture = parts.front();
+  if (!is_checker || parts.size() < 2) return;
+  const Vec3 offset = Vec3(-1e-6, -1e-6, -1e-6) * scale;
+  texture.pigment.pattern = checker_text(parts[0].pigment.color, parts[1].pigment.color) +
+                            (scale == 1 ? "" : " " + attribute("scale", scale)) + " " +
+                            attribute("offset", offset) + " }";
 }
 
 void PovScene::read_material(PovTexture& texture) {
@@ -250,7 +257,8 @@ std::string PovScene::material_of(const PovTexture& texture) {
     text += " " + attribute("specular", shine) + " " + attribute("shininess", std::max(size, 0.0));
   }
   const double glow = finish.emission + (finish.ambient >= 0.3 ? finish.ambient : 0);
-  if (glow > 0) text += " " + attribute("emission", rgb_text(times(pigment.color, glow)));
+  if (glow > 0 && pigment.pattern.empty())
+    text += " " + attribute("emission", rgb_text(times(pigment.color, glow)));
   const std::string name = texture_name_.empty() ? "paint1" : texture_name_;
   texture_name_.clear();
   return writer_.material(text + texture.bump + " }", name);
