@@ -191,6 +191,13 @@ PovValue PovScene::suffixed() {
   }
 }
 
+std::optional<PovValue> PovScene::element() {
+  const PovToken& token = peek();
+  const PovValue* const value = token.kind == PovToken::Kind::word ? find(token.text) : nullptr;
+  if (!value || !value->get<std::shared_ptr<PovArray>>()) return {};
+  return suffixed();
+}
+
 PovValue PovScene::vector_literal() {
   expect("<", "here");
   const bool was = std::exchange(no_compare_, true);
@@ -377,7 +384,10 @@ void PovScene::fill(PovArray& elements) {
 }
 
 PovValue PovScene::declared_value(const std::string& name) {
+  // Directives may stand before the value.
+  const std::size_t waiting = std::exchange(hold_, 0);
   const PovToken token = peek();
+  hold_ = waiting;
   const bool is_block = token.kind == PovToken::Kind::word && behind() && behind()->is_sign("{");
   if (token.is_word("array")) {
     take();

@@ -86,6 +86,9 @@ PovObject PovScene::object() {
       take();
     } else if (is_object(name)) {
       result = object();
+    } else if (const std::optional<PovValue> held = element()) {
+      if (!held->get<PovObject>()) fail("this element is no object");
+      result = *held->get<PovObject>();
     } else if (value && value->get<PovUnknown>()) {
       take();
       notes().lost(name.place,

@@ -49,6 +49,8 @@ class PovScene : private PovStream {
   PovValue unary();
   PovValue suffixed();
   PovValue primary();
+  /// Returns an element of an array, if one stands here.
+  std::optional<PovValue> element();
   PovValue vector_literal();
   PovValue color();
   PovValue array();

@@ -58,10 +58,20 @@ void PovScene::read_texture(PovTexture& texture) {
   expect("{", "behind 'texture'");
   std::vector<PovTexture> parts;  // of a pattern of textures
   bool is_checker = false;
+  bool is_in_tiles = false;  // which have brackets of their own
   double scale = 1;
-  while (!take_sign("}")) {
+  for (;;) {
     const PovToken token = peek();
+    if (take_sign("}")) {
+      if (!std::exchange(is_in_tiles, false)) break;
+      continue;
+    }
     if (take_sign(",")) continue;
+    if (const std::optional<PovValue> held = element()) {
+      if (!held->get<PovTexture>()) fail("this element is no texture");
+      texture = *held->get<PovTexture>();
+      continue;
+    }
     if (token.kind != PovToken::Kind::word) fail("a word is expected in a texture");
     const PovValue* const value = find(token.text);
     PovObject ignored;
@@ -77,6 +87,7 @@ void PovScene::read_texture(PovTexture& texture) {
       if (!is_checker)
         notes().differs(token.place, "of a pattern of textures the first one is taken");
       if (token.text == "gradient") vec3();
+      if (token.text == "tiles") is_in_tiles = take_sign("{");
     } else if (token.is_word("texture")) {
       take();
       read_texture(parts.emplace_back(default_));

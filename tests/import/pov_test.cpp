@@ -146,6 +146,20 @@ TEST_CASE("declared objects have their names, and loops are unrolled") {
   CHECK(scene.says("ballOne <translate vec3(15, 0, 0), material "));
 }
 
+TEST_CASE("elements of arrays are objects and textures, and directives stand before values") {
+  const Imported scene =
+      pov("#declare A = array[2];\n#declare A[1] = sphere { 0, 3 };\n#declare T = array[1] { "
+          "texture { pigment { rgb <1, 0, 0.5> } } };\n#declare S = #if (1) 2; #else 3; #end\n"
+          "object { A[1] scale S texture { T[0] } }");
+  CHECK(scene.says("Sphere { center -> vec3(0, 0, 0) radius -> 3 }"));
+  CHECK(scene.says("<scale 2, material paint1>"));
+  CHECK(scene.says("color -> rgb(1, 0, 0.5)"));
+  CHECK(
+      pov("plane { y, 0 texture { tiles { texture { pigment { rgb 1 } } tile2 texture { pigment { "
+          "rgb 0 } } } } }")
+          .says("Checker { colorA -> rgb(1, 1, 1) colorB -> rgb(0, 0, 0)"));
+}
+
 TEST_CASE("what is not understood is listed with its place") {
   CHECK(messages_of("sphere { 0, 1 }\nisosurface { function { x } }") ==
         "2:12: error: 'isosurface' is not understood\n");
