@@ -146,6 +146,14 @@ double determinant(const Matrix& m) {
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
+double mean_scale(const Matrix& matrix) {
+  const double volume = std::abs(determinant(matrix));
+  if (!(volume > 0) || !std::isfinite(volume)) return 1;
+  const double root = elementary::pow(volume, 1.0 / 3);
+  // A step of Newton's method makes the roots of 8 and the like whole.
+  return root - (root * root * root - volume) / (3 * root * root);
+}
+
 std::optional<Matrix> inverted(const Matrix& m) {
   const double volume = determinant(m);
   if (volume == 0 || !std::isfinite(volume)) return {};

@@ -18,6 +18,8 @@ inline constexpr Matrix identity_matrix = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1
 Matrix product(const Matrix& outer, const Matrix& inner);
 Vec3 map_point(const Matrix& matrix, const Vec3& point);
 double determinant(const Matrix& matrix);
+/// Returns the factor by which a map scales lengths, as a mean over the axes.
+double mean_scale(const Matrix& matrix);
 /// Returns the map that undoes another, or nothing if that flattens space.
 std::optional<Matrix> inverted(const Matrix& matrix);
 /// Returns by what factor a map scales all lengths, if it does so evenly within a relative error.

@@ -112,7 +112,7 @@ void PovScene::read_pigment(PovPigment& pigment) {
       const auto moved = transform(token.text);
       if (!moved) continue;
       const auto scale = even_scale(*moved, 1e-9);
-      size *= scale.value_or(std::cbrt(std::abs(determinant(*moved))));
+      size *= scale.value_or(mean_scale(*moved));
       offset = map_point(*moved, offset);
       const Vec3 base = map_point(*moved, {0, 0, 0});
       const Vec3 turned = map_point(*moved, direction) - base;

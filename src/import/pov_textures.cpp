@@ -96,7 +96,7 @@ void PovScene::read_texture(PovTexture& texture) {
     } else if (!texture_word(ignored, texture, token.text)) {
       const auto matrix = transform(token.text);
       if (!matrix) unknown_word("a texture");
-      if (matrix) scale *= std::cbrt(std::abs(determinant(*matrix)));
+      if (matrix) scale *= mean_scale(*matrix);
     }
   }
   if (parts.empty()) return;
@@ -206,7 +206,7 @@ void PovScene::read_normal(PovTexture& texture) {
       if (peek().kind == PovToken::Kind::number) height = float_expression();
     } else if (token.is_word("scale")) {
       const auto scaled = transform("scale");
-      if (scaled) size *= std::cbrt(std::abs(determinant(*scaled)));
+      if (scaled) size *= mean_scale(*scaled);
     } else if (token.kind == PovToken::Kind::word && !transform(token.text)) {
       unknown_word("a normal");
     } else if (token.kind != PovToken::Kind::word) {
