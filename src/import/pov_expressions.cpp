@@ -333,8 +333,18 @@ Vec3 PovScene::vec3() {
   return {v[0], v[1], v[2]};
 }
 
+void PovScene::with_channels(PovVector& numbers) {
+  while (peek().kind == PovToken::Kind::word && peek().text.size() > 1) {
+    const auto channel = component_of(peek().text);
+    if (!channel || *channel >= 5) return;
+    take();
+    numbers[*channel] = float_expression();
+  }
+}
+
 PovColor PovScene::color_value() {
-  const PovVector v = numbers(5);
+  PovVector v = numbers(5);
+  with_channels(v);
   return {v[0], v[1], v[2], v[3], v[4]};
 }
 
@@ -381,69 +391,6 @@ void PovScene::fill(PovArray& elements) {
     take_sign(",");
   }
   --depth_;
-}
-
-PovValue PovScene::declared_value(const std::string& name) {
-  // Directives may stand before the value.
-  const std::size_t waiting = std::exchange(hold_, 0);
-  const PovToken token = peek();
-  hold_ = waiting;
-  const bool is_block = token.kind == PovToken::Kind::word && behind() && behind()->is_sign("{");
-  if (token.is_word("array")) {
-    take();
-    return array();
-  }
-  if (token.is_word("function") || token.is_word("spline")) {
-    take();
-    notes().differs(token.place, text::format("'{}' is not understood", token.text));
-    if (take_sign("("))
-      while (!take_sign(")")) take();
-    skip_braces();
-    return {PovUnknown{token.text}};
-  }
-  if (!is_block) return expression();
-  // Within a block directives have their place, and behind it they wait again.
-  const std::size_t held = std::exchange(hold_, 0);
-  PovValue value = declared_block(name, token);
-  hold_ = held;
-  // Textures may lie on one another.
-  while (value.get<PovTexture>() && peek().is_word("texture")) {
-    notes().differs(place(), "of textures on one another the first one is taken");
-    take();
-    hold_ = 0;
-    PovTexture other;
-    read_texture(other);
-    hold_ = held;
-  }
-  return value;
-}
-
-PovValue PovScene::declared_block(const std::string& name, const PovToken& token) {
-  if (is_object(token)) {
-    PovObject made = object();
-    made.solid = make_named(made.solid, name);
-    return {made};
-  }
-  take();
-  const std::string& kind = token.text;
-  if (kind == "texture" || kind == "material" || kind == "interior") {
-    PovTexture texture = default_;
-    if (kind == "texture") read_texture(texture);
-    if (kind == "material") read_material(texture);
-    if (kind == "interior") read_interior(texture);
-    return {texture};
-  }
-  if (kind == "pigment") return {pigment()};
-  if (kind == "finish") {
-    PovFinish finish = default_.finish;
-    read_finish(finish);
-    return {finish};
-  }
-  if (kind == "transform") return {transform_block()};
-  if (kind == "color_map" || kind == "colour_map" || kind == "pigment_map") return {color_map()};
-  notes().differs(token.place, text::format("'{}' is not understood", kind));
-  skip_braces();
-  return {PovUnknown{kind}};
 }
 
 }  // namespace crt::importing

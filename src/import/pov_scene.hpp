@@ -60,6 +60,8 @@ class PovScene : private PovStream {
   Vec3 vec3();
   PovVector numbers(std::size_t least);
   PovColor color_value();
+  /// Reads channels behind a colour, as in "Gold filter 0.9".
+  void with_channels(PovVector& numbers);
   // pov_functions.cpp
   std::optional<PovValue> function(const PovToken& name);
   std::optional<PovValue> text_function(const std::string& name);
