@@ -28,7 +28,8 @@ std::string script_of_scene(const PovScene& scene, ScriptWriter& writer, const s
   for (const SharedSolid& solid : scene.solids())
     shown += "    " + indented_text(writer.write(solid), 4) + "\n";
   std::string script = heading_of(name) + scene.settings();
-  if (!writer.materials().empty()) script += "\n" + writer.materials();
+  const std::string materials = writer.materials_of(writer.definitions() + shown);
+  if (!materials.empty()) script += "\n" + materials;
   if (!writer.definitions().empty()) script += "\n" + writer.definitions();
   script += shown + "}\n";
   check_script(script, name);

@@ -134,6 +134,23 @@ std::string ScriptWriter::material(const std::string& text, const std::string& w
   return place->second;
 }
 
+std::string ScriptWriter::materials_of(std::string_view text) const {
+  constexpr std::string_view word = "material ";
+  std::set<std::string_view> used;
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at)) {
+    at += word.size();
+    used.insert(text.substr(at, text.find_first_of(",>", at) - at));
+  }
+  std::string materials;
+  for (std::size_t begin = 0; begin < materials_.size();) {
+    const std::size_t end = materials_.find('\n', begin) + 1;
+    const std::string_view line = std::string_view(materials_).substr(begin, end - begin);
+    if (used.count(line.substr(0, line.find(' '))) > 0) materials += line;
+    begin = end;
+  }
+  return materials;
+}
+
 int ScriptWriter::number_of(const SharedSolid& solid) {
   const auto found = numbers_of_solids_.find(solid.get());
   if (found != numbers_of_solids_.end()) return found->second;

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -29,6 +30,8 @@ class ScriptWriter {
   std::string write(const SharedSolid& solid);
 
   const std::string& materials() const { return materials_; }
+  /// Returns the materials that a text names behind the word "material".
+  std::string materials_of(std::string_view text) const;
   const std::string& definitions() const { return definitions_; }
   std::size_t size() const { return materials_.size() + definitions_.size(); }
 

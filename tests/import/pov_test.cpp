@@ -121,6 +121,8 @@ TEST_CASE("textures become materials that are called as they were declared") {
   CHECK(scene.says("shiny = Material { color -> rgb(1, 0.5, 0) reflectivity -> 0.2"));
   CHECK(scene.says("transparency -> 0.75 refractiveindex -> 1.5"));
   CHECK(scene.says("<material shiny>"));
+  CHECK(!pov("#declare Unused = sphere { 0, 1 pigment { rgb 0.125 } };\nsphere { 0, 2 }")
+             .says("0.125"));
   CHECK(pov("#declare Gold = rgb <1, 0.5, 0>;\nsphere { 0, 1 pigment { Gold filter 0.75 } }")
             .says("Material { color -> rgb(1, 0.5, 0) transparency -> 0.75"));
 }
