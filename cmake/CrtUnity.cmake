@@ -11,7 +11,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 foreach(target crt_core crt_lang crt_farm crt_capi_objects crt_format crt_service crt_source
-  crt_lsp crt_trade crt_studio crt)
+  crt_import crt_lsp crt_trade crt_studio crt)
   if(NOT TARGET ${target})
     continue()
   endif()

@@ -28,8 +28,13 @@ ExitCode run_new(const NewRequest& request);
 /// Runs scripts for their diagnostics alone.
 ExitCode run_check(const CheckRequest& request);
 
-/// Lays scripts out as the formatter does, or says which are not.
+/// Writes the scene of a script as source code or triangles.
 ExitCode run_export(const ExportRequest& request);
+
+/// Translates a file of another program to a script.
+ExitCode run_import(const ImportRequest& request);
+
+/// Lays scripts out as the formatter does, or says which are not.
 ExitCode run_format(const FormatRequest& request);
 
 /// Serves an editor on standard input and output, until it ends that.

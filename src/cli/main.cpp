@@ -22,6 +22,7 @@ struct Run {
   ExitCode operator()(const MeasureRequest& request) const { return run_measure(request); }
   ExitCode operator()(const AskRequest& request) const { return run_ask(request); }
   ExitCode operator()(const ExportRequest& request) const { return run_export(request); }
+  ExitCode operator()(const ImportRequest& request) const { return run_import(request); }
   ExitCode operator()(const FormatRequest& request) const { return run_format(request); }
   ExitCode operator()(const LspRequest& request) const { return run_lsp(request); }
   ExitCode operator()(const StudioRequest& request) const { return run_studio(request); }

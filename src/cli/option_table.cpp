@@ -94,6 +94,11 @@ void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request) {
                                        "a whole number, 0 for what memory is enough for", value);
                     }
                   }});
+  add_diagnostics_row(rows, request);
+  add_quiet_row(rows, request);
+}
+
+void add_diagnostics_row(std::vector<OptionRow>& rows, CommonRequest& request) {
   rows.push_back({.names = "--diagnostics",
                   .type = "text|json",
                   .help = "how errors and warnings are written: as text, or all as one JSON array "
@@ -104,7 +109,6 @@ void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request) {
                     request.diagnostics =
                         value == "json" ? DiagnosticsFormat::json : DiagnosticsFormat::text;
                   }});
-  add_quiet_row(rows, request);
 }
 
 void add_quiet_row(std::vector<OptionRow>& rows, CommonRequest& request) {

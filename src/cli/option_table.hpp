@@ -42,6 +42,7 @@ CommandTable ask_table(AskRequest& request);
 CommandTable check_table(CheckRequest& request);
 CommandTable new_table(NewRequest& request);
 CommandTable export_table(ExportRequest& request);
+CommandTable import_table(ImportRequest& request);
 CommandTable format_table(FormatRequest& request);
 CommandTable lsp_table();
 CommandTable studio_table(StudioRequest& request);
@@ -54,6 +55,7 @@ CommandTable help_table(std::string& command, const std::vector<std::string>& co
 
 /// Adds what all commands take that run scripts.
 void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request);
+void add_diagnostics_row(std::vector<OptionRow>& rows, CommonRequest& request);
 void add_quiet_row(std::vector<OptionRow>& rows, CommonRequest& request);
 /// Adds the settings of a script.
 void add_setting_rows(std::vector<OptionRow>& rows, ScriptOptions& script);

@@ -43,6 +43,7 @@ constexpr std::string_view main_footer = R"(Examples:
   crt check scene.crt                        reports what is wrong with a script, renders nothing
   crt format scene.crt                       lays the script out
   crt export scene.crt -o scene.cpp          writes a program that makes the same picture
+  crt import part.scad -o part.crt           translates a file of OpenSCAD or POV-Ray to a script
 
 'crt help render' lists all options. Every setting of a script is an option, too.
 
@@ -261,6 +262,8 @@ Request parse_command_line(int argc, const char* const* argv) {
   const CLI::App& create = add_command(app, new_table(new_request));
   ExportRequest export_request;
   const CLI::App& exporting = add_command(app, export_table(export_request));
+  ImportRequest import_request;
+  const CLI::App& importing = add_command(app, import_table(import_request));
   FormatRequest format_request;
   const CLI::App& format = add_command(app, format_table(format_request));
   const CLI::App& lsp = add_command(app, lsp_table());
@@ -294,6 +297,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   if (check.parsed()) return check_request;
   if (create.parsed()) return new_request;
   if (exporting.parsed()) return export_request;
+  if (importing.parsed()) return import_request;
   if (format.parsed()) return format_request;
   if (lsp.parsed()) return LspRequest{};
   if (studio.parsed()) return studio_request;

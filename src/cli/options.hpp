@@ -181,6 +181,16 @@ struct ExportRequest : CommonRequest {
   std::optional<double> seconds;           ///< that the triangles of each entity may take
 };
 
+/// An ImportRequest asks for a script of another program's file.
+struct ImportRequest : CommonRequest {
+  std::filesystem::path file;
+  std::filesystem::path output;  ///< empty for standard output
+  bool facets = false;
+  bool partial = false;
+  std::vector<std::filesystem::path> include_folders;
+  double seconds = 60;  ///< that OpenSCAD may take
+};
+
 struct FormatRequest : CommonRequest {
   std::vector<std::filesystem::path> scenes;  ///< "-" stands for the standard streams
   bool check = false;
@@ -216,8 +226,9 @@ struct ManRequest {
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
 using Request = std::variant<RenderRequest, FarmRequest, WatchRequest, CheckRequest, TradeRequest,
-                             MeasureRequest, AskRequest, NewRequest, ExportRequest, FormatRequest,
-                             LspRequest, StudioRequest, CompletionsRequest, ManRequest, ExitCode>;
+                             MeasureRequest, AskRequest, NewRequest, ExportRequest, ImportRequest,
+                             FormatRequest, LspRequest, StudioRequest, CompletionsRequest,
+                             ManRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

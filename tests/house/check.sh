@@ -74,8 +74,12 @@ check_layers() {
   lines_with '^#include [<"](lsp|studio|cli|capi)/' 'src/service/*'
   lines_with '^#include [<"](lang|format|service|studio|cli|capi)/' 'src/lsp/*'
   lines_with '^#include [<"](lang|format|service|lsp|cli|capi)/' 'src/studio/*'
-  lines_with '^#include [<"](lang|format|service|lsp|studio)/' 'src/cli/*' |
-    without '"(format/format|lsp/server)\.hpp"'
+  lines_with '^#include [<"](lang|format|service|lsp|studio|import)/' 'src/cli/*' |
+    without '"(format/format|lsp/server|import/import)\.hpp"'
+  # What is imported becomes a script, which any program may run.
+  lines_with '^#include [<"](lang|farm|cli|capi|format|service|source|lsp|studio)/' 'src/import/*'
+  lines_with '^#include [<"]import/' 'src/core/*' 'src/lang/*' 'src/farm/*' 'src/source/*' \
+    'src/format/*' 'src/service/*' 'src/lsp/*' 'src/studio/*' 'src/capi/*'
   lines_with '^#include [<"]format/' 'src/service/*' | without '"format/format\.hpp"'
 }
 
@@ -90,7 +94,7 @@ only_in() {
 # What the public headers offer is all that lang, the command and the examples may see.
 check_public_only() {
   lines_with '^#include [<"]core/' 'src/lang/*' 'src/format/*' 'src/service/*' 'src/lsp/*' \
-    'src/studio/*' 'src/cli/*' 'src/capi/*' 'examples/*'
+    'src/studio/*' 'src/cli/*' 'src/capi/*' 'src/import/*' 'examples/*'
   lines_with '^#include [<"](core|lang|cli|capi)/' 'include/*'
   lines_with '^#include <glm/' 'include/*' | without '<glm/vec3.hpp>'
   lines_with '^#include <(fmt|tbb|embree|OpenImageIO|CLI)' 'include/*'
@@ -274,10 +278,11 @@ tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once'
 lines_with '#include <format>|std::views::|std::ranges::views' "${code[@]}" |
   complain "Not with the compilers that we support"
 lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' \
-  'src/service/*' 'src/source/*' 'src/lsp/*' |
+  'src/service/*' 'src/source/*' 'src/lsp/*' 'src/import/*' |
   complain "The library reads the environment"
 lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' 'src/core/*' \
-  'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/service/*' 'src/source/*' 'src/lsp/*' |
+  'src/lang/*' 'src/farm/*' 'src/capi/*' 'src/format/*' 'src/service/*' 'src/source/*' 'src/lsp/*' \
+  'src/import/*' |
   without '^src/source/templates\.hpp:' | # programs that are written may do so
   complain "The library prints or ends the process: log to a callback, throw crt::Error"
 lines_with '\b(TODO|FIXME|XXX|HACK)\b' \
