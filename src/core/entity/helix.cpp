@@ -63,7 +63,11 @@ Implicit upright_helix(const Helix& helix, double length) {
   const Field distance = core::distance_from_axis();
   const Field cosine = core::cosine_to_helix(distance, helix.left, 0.5 * (radius - thickness));
   const double scale = cosine_of_rise(helix) / (2 * std::numbers::pi);
-  const Field along = scale * scale * squared_angle(1 - cosine);
+  // Half of the angle is at most a right one, where the series is short. Where turns are farthest
+  // away, its cosine has no slope.
+  constexpr double least = 1e-6;
+  const Field half = sqrt(max(0.5 + 0.5 * cosine, least));
+  const Field along = 4 * scale * scale * squared_angle(1 - half);
   const Field beside = distance - radius;
   const double reach = radius + 1.0625 * thickness;
   return {.field = beside * beside + along - thickness * thickness,
