@@ -669,8 +669,7 @@ CRT_API crt_status crt_thread_create(const double from[3], const double to[3], d
  * @param left       1 winds the other way than a common screw; 0 does not
  */
 CRT_API crt_status crt_helix_create(const double from[3], const double to[3], double radius,
-                                    double thickness, double pitch, int32_t left,
-                                    crt_entity** out);
+                                    double thickness, double pitch, int32_t left, crt_entity** out);
 /**
  * Makes a profile that is drawn out along z, from 0 to a height, and shaped on its way. It is an
  * implicit solid with the distance from the profile as its field. Contours must not cross or touch

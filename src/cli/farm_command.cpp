@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <crt/farm.hpp>
+#include <crt/script.hpp>
 #include <map>
 #include <thread>
 
@@ -87,6 +88,7 @@ class Farm {
                         .render = request_.render,
                         .max_primitives = request_.max_primitives};
     if (request_.frames) options.frames = {request_.frames->first, request_.frames->last};
+    if (request_.film) options.frames = {.first = 0, .last = frames_of_script() - 1};
     options.render.progress = [this](double /*share*/) { return !interrupt_.interrupted(); };
     const FarmPlan planned = plan_farm(request_.target, request_.output, options);
     reporter_.note(
@@ -94,6 +96,18 @@ class Farm {
                     request_.output.string(), planned.tasks, planned.tasks == 1 ? "" : "s",
                     planned.seconds / planned.tasks, planned.longest_seconds,
                     planned.passes > 0 ? fmt::format(", {} passes", planned.passes) : ""));
+  }
+
+  /// Returns how many frames the script's Settings have.
+  int frames_of_script() {
+    const ScriptResult result = run_script_file(request_.target, request_.script);
+    const int frames =
+        result.scene ? result.scene->settings.frames : 1;  // planning says what fails
+    if (frames > 0) return frames;
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("'{}' has no frames: say them by frames -> 48 in its Settings, or such "
+                            "as --frames 1-48",
+                            request_.target.string()));
   }
 
   /// Works on one task, or on all that have no part, or one that is damaged.

@@ -17,6 +17,7 @@ constexpr std::string_view farm_footer =
 The merged pictures are those of `crt render --reproducible`, to the byte.
 
   crt farm plan scene.crt --frames 1-240 -o job    makes a job: the script, its files, the tasks
+  crt farm plan scene.crt --film -o job            the same, with the frames of its Settings
   crt farm work job --task 7                       renders a task, and leaves its part
   crt farm work job                                renders all that have no part, one by one
   crt farm merge job -o film_###.png               puts the pictures together
@@ -53,6 +54,11 @@ void add_plan_rows(std::vector<OptionRow>& rows, FarmRequest& request) {
        .help = "plan: a picture for each whole t in the range",
        .take = [&request](const std::string& text) { request.frames = parse_frames(text); },
        .excludes = "--time"});
+  rows.push_back({.names = "--film",
+                  .type = "",
+                  .help = "plan: the frames that the script's Settings have",
+                  .take = into_flag("--film", request.film),
+                  .excludes = "--frames"});
   rows.push_back({.names = "--tasks",
                   .type = "N",
                   .help = "plan: so many tasks (default: as many as last a minute each)",

@@ -83,6 +83,7 @@ struct FarmRequest : PictureRequest {
   std::set<std::string> given;
   // to plan
   std::optional<FrameRange> frames;
+  bool film = false;  ///< the frames are those that the script's Settings have
   int tasks = 0;
   double least_seconds = 60;
   int tile_width = 0;

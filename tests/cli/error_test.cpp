@@ -132,6 +132,9 @@ TEST_CASE_FIXTURE(Fixture, "a picture never overwrites its own script") {
 TEST_CASE_FIXTURE(Fixture, "a picture of a job that no format can hold ends with 2") {
   REQUIRE(run_crt(folder, {"farm", "plan", "ball.crt", "-o", "job", "--tasks", "1"}).exit_code ==
           0);
+  const Outcome still = run_crt(folder, {"farm", "plan", "ball.crt", "--film", "-o", "film"});
+  CHECK(still.exit_code == usage_error);
+  CHECK(contains(still.err, "say them by frames -> 48"));
   CHECK(run_crt(folder, {"farm", "merge", "job", "-o", "x.docx"}).exit_code == usage_error);
   CHECK(run_crt(folder, {"farm", "status", "job", "--sheet", "x.docx"}).exit_code == usage_error);
   REQUIRE(

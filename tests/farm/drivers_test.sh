@@ -32,6 +32,14 @@ check() {
 "$crt" farm submit local --local --processes 3 -q
 check local
 
+# The frames of the script's Settings begin with 0.
+sed 's/^Settings {/Settings { frames -> 3/' film.crt >short.crt
+"$crt" farm plan short.crt --film --tasks 2 -o short -q
+"$crt" farm submit short --local --processes 2 -q
+"$crt" render short.crt --frames 2-2 -o 'alone_##.png' --reproducible -q
+cmp alone_02.png short/short_0002.png
+[[ $(ls short/*.png | wc -l) == 3 ]]
+
 # A job that is there is not done again, and one whose part is damaged is mended.
 cp -r local cut
 rm cut/*.png

@@ -17,7 +17,7 @@ namespace {
 constexpr double few_roundings = 0x1p-49;
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::invalid_argument, message, "profile");
+  throw Error(ErrorCode::invalid_argument, "profile: " + message, "profile");
 }
 
 Interval widened(double lo, double hi) {
