@@ -26,6 +26,9 @@ struct PovCamera {
   bool is_orthographic = false;
 };
 
+/// A Spline is how the points of a prism or a lathe are joined.
+enum class Spline { linear, quadratic, cubic, bezier };
+
 class PovScene : private PovStream {
  public:
   PovScene(Notes& notes, ScriptWriter& writer, const ImportOptions& options)
@@ -86,6 +89,8 @@ class PovScene : private PovStream {
   SharedSolid cone(bool is_cylinder, const Place& place);
   SharedSolid blob();
   SharedSolid quadric();
+  /// Takes a word that says how points are joined, if it is next.
+  bool take_spline(Spline& spline);
   SharedSolid prism(const Place& place);
   SharedSolid lathe(const Place& place, bool is_sor);
   /// Reads three corners. Those of a smooth triangle have normals behind them.

@@ -13,9 +13,6 @@ namespace {
 /// x and z of a prism are x and y of a profile, which is drawn out along y.
 constexpr const char* upright = "matrix [[1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0]]";
 
-/// A Spline is how the points of a prism or a lathe are joined.
-enum class Spline { linear, quadratic, cubic, bezier };
-
 struct Point {
   double x = 0;
   double y = 0;
@@ -245,21 +242,27 @@ SharedSolid PovScene::quadric() {
   return make_object("Quadric", attributes);
 }
 
+bool PovScene::take_spline(Spline& spline) {
+  if (take_word("linear_spline"))
+    spline = Spline::linear;
+  else if (take_word("quadratic_spline"))
+    spline = Spline::quadratic;
+  else if (take_word("cubic_spline"))
+    spline = Spline::cubic;
+  else if (take_word("bezier_spline"))
+    spline = Spline::bezier;
+  else
+    return false;
+  return true;
+}
+
 SharedSolid PovScene::prism(const Place& at) {
   Spline spline = Spline::linear;
   bool is_cone = false;
-  for (;;) {
-    if (take_word("linear_spline"))
-      spline = Spline::linear;
-    else if (take_word("quadratic_spline"))
-      spline = Spline::quadratic;
-    else if (take_word("cubic_spline"))
-      spline = Spline::cubic;
-    else if (take_word("bezier_spline"))
-      spline = Spline::bezier;
-    else if (take_word("conic_sweep"))
+  while (true) {
+    if (take_word("conic_sweep"))
       is_cone = true;
-    else if (!take_word("linear_sweep"))
+    else if (!take_word("linear_sweep") && !take_spline(spline))
       break;
   }
   const double low = float_expression();
@@ -294,17 +297,7 @@ SharedSolid PovScene::prism(const Place& at) {
 SharedSolid PovScene::lathe(const Place& at, bool is_sor) {
   Spline spline = is_sor ? Spline::cubic : Spline::linear;
   if (is_sor) notes().differs(at, "this sor is given the curve of a cubic spline");
-  for (;;) {
-    if (take_word("linear_spline"))
-      spline = Spline::linear;
-    else if (take_word("quadratic_spline"))
-      spline = Spline::quadratic;
-    else if (take_word("cubic_spline"))
-      spline = Spline::cubic;
-    else if (take_word("bezier_spline"))
-      spline = Spline::bezier;
-    else
-      break;
+  while (take_spline(spline)) {
   }
   const double count_of_points = float_expression();
   std::vector<Point> points;

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contours/simple_contours.hpp"
 #include "contours/winding_oracle.hpp"
 #include "crt/error.hpp"
 
@@ -12,14 +13,6 @@ using namespace crt::test;
 namespace {
 
 using Contours = std::vector<Contour>;
-
-Contour rectangle(double left, double low, double right, double high) {
-  return {{left, low}, {right, low}, {right, high}, {left, high}};
-}
-
-Contour circle(double x, double y, double radius) {
-  return {{x + radius, y, 1}, {x - radius, y, 1}};
-}
 
 Contour turned(Contour contour) {
   Contour result;
