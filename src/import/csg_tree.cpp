@@ -75,7 +75,7 @@ class CsgParser {
   std::string word() {
     const std::size_t begin = at_;
     while (is_word(peek())) step();
-    const std::string result(text_.substr(begin, at_ - begin));
+    std::string result(text_.substr(begin, at_ - begin));
     skip();
     return result;
   }

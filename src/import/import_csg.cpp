@@ -73,6 +73,7 @@ SharedSolid flat_part(const std::vector<const CsgNode*>& top, OpenScad& scad, No
   notes.differs(top.front()->place,
                 "this file is flat: it is drawn out by 1, as OpenSCAD's preview shows it");
   std::vector<SharedSolid> parts;
+  parts.reserve(top.size());
   for (const CsgNode* const node : top) parts.push_back(scad.extruded(*node, 1));
   return make_sum(std::move(parts));
 }

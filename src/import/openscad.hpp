@@ -64,7 +64,7 @@ class OpenScad {
   SharedSolid linear_extrude(const CsgNode& node);
   SharedSolid rotate_extrude(const CsgNode& node);
   SharedSolid extruded_all(const CsgNode& node, double height);
-  SharedSolid tapered(const CsgNode& node, const Twist& twist);
+  SharedSolid tapered(const CsgNode& node, const Twist& asked);
   SharedSolid text(const CsgNode& node, double height);
 
   // openscad_flat.cpp

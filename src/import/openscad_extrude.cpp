@@ -76,8 +76,7 @@ SharedSolid OpenScad::linear_extrude(const CsgNode& node) {
   const Twist twist = twist_of(node);
   if (!(twist.height > 0) || !std::isfinite(twist.height) || !std::isfinite(twist.degrees))
     return nullptr;
-  const SharedSolid solid =
-      twist.is_none() ? extruded_all(node, twist.height) : tapered(node, twist);
+  SharedSolid solid = twist.is_none() ? extruded_all(node, twist.height) : tapered(node, twist);
   if (!solid || !node.flag("center")) return solid;
   return make_changed(solid, {"translate " + vector_text({0, 0, -twist.height / 2})});
 }

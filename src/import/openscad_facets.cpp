@@ -175,6 +175,7 @@ Faces twisted_facets(const Contour& contour, const Twist& twist, bool is_hole) {
   }
   const auto end = [&](const std::vector<Vec3>& level) {
     std::vector<std::uint32_t> corners;
+    corners.reserve(level.size());
     for (const Vec3& p : level) corners.push_back(builder.point(p));
     builder.face(corners);
   };

@@ -272,7 +272,7 @@ Region OpenScad::projection(const CsgNode& node) {
 }
 
 Region OpenScad::resized_region(const CsgNode& node, bool facets) {
-  const Region region = united(regions(node, facets));
+  Region region = united(regions(node, facets));
   const auto wanted = node.numbers("newsize", 2);
   if (!wanted || region.empty()) return region;
   const RegionBounds bounds = bounds_of(region);

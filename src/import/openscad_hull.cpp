@@ -195,7 +195,7 @@ namespace {
 
 SharedSolid upright(const Region& region, double low, double high) {
   if (region.empty()) return nullptr;
-  const SharedSolid solid = make_object(
+  SharedSolid solid = make_object(
       "Extrusion", {attribute("profile", profile_text(region)), attribute("height", high - low)});
   if (low == 0) return solid;
   return make_changed(solid, {"translate " + vector_text({0, 0, low})});
@@ -269,6 +269,7 @@ SharedSolid hull_of_points(const std::vector<Vec3>& all) {
     throw Error(ErrorCode::limit, text::format("it has {} corners, and a Hull at most {}",
                                                kept.size(), most_hull_points));
   std::vector<std::string> points;
+  points.reserve(kept.size());
   for (const auto& [x, y, z] : kept) points.push_back(vector_text({x, y, z}));
   return make_object("Hull", {attribute("points", list_text(points))});
 }
@@ -277,7 +278,7 @@ SharedSolid exact_hull(const Shape& shape) {
   if (!shape.is_known) return nullptr;
   if (shape.has_only_prisms()) {
     try {
-      if (const SharedSolid solid = hull_of_prisms(shape.prisms)) return solid;
+      if (SharedSolid solid = hull_of_prisms(shape.prisms)) return solid;
     } catch (const Error&) {
       // Arcs that are no circles have a hull of facets.
     }
@@ -341,7 +342,7 @@ SharedSolid OpenScad::hull(const CsgNode& node) {
   try {
     const Shape round = HullReader(*this, options_.facets).shape(node);
     if (round.is_known && round.is_empty()) return nullptr;
-    if (const SharedSolid solid = exact_hull(round)) return solid;
+    if (SharedSolid solid = exact_hull(round)) return solid;
     const Shape straight = options_.facets ? round : HullReader(*this, true).shape(node);
     if (!straight.is_known) return nullptr;
     if (!options_.facets)
@@ -360,7 +361,7 @@ SharedSolid OpenScad::minkowski(const CsgNode& node) {
     if (children.size() == 2) {
       const Shape a = HullReader(*this, options_.facets).shape(*children[0]);
       const Shape b = HullReader(*this, options_.facets).shape(*children[1]);
-      if (const SharedSolid solid = exact_sum(a, b)) return solid;
+      if (SharedSolid solid = exact_sum(a, b)) return solid;
     }
     std::vector<Vec3> sums{{0, 0, 0}};
     bool is_round = false;

@@ -101,6 +101,7 @@ bool OpenScad::is_faceted(const CsgNode& node) const {
 
 SharedSolid OpenScad::all(const std::vector<const CsgNode*>& nodes, bool has_color) {
   std::vector<SharedSolid> parts;
+  parts.reserve(nodes.size());
   for (const CsgNode* const node : nodes) parts.push_back(solid(*node, has_color));
   return make_sum(std::move(parts));
 }
@@ -185,7 +186,7 @@ SharedSolid OpenScad::cylinder(const CsgNode& node) {
   if (is_faceted(node)) {
     const int fragments = fragments_of(std::max(r1, r2), resolution_of(node));
     if (r1 != r2) return made_of(frustum_facets(low, r1, high, r2, fragments));
-    const SharedSolid prism = make_object(
+    SharedSolid prism = make_object(
         "Extrusion", {attribute("profile", profile_text({circle_contour(0, 0, r1, fragments)})),
                       attribute("height", height)});
     if (low == 0) return prism;

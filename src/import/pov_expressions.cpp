@@ -13,7 +13,7 @@ namespace crt::importing {
 
 namespace {
 
-constexpr int most_depth = 150;  // of what stands in brackets in one another
+constexpr int most_brackets = 150;  // of what stands in brackets in one another
 constexpr std::size_t most_elements = 1'000'000;
 
 PovValue number_value(double number) {
@@ -95,7 +95,7 @@ std::optional<std::size_t> component_of(const std::string& name) {
 }  // namespace
 
 PovValue PovScene::expression() {
-  if (++depth_ > most_depth)
+  if (++depth_ > most_brackets)
     throw Failure(place(), "brackets lie too deep in one another", ErrorCode::limit);
   PovValue value = binary(no_compare_ ? 2 : 0);
   if (!no_compare_ && take_sign("?")) {
@@ -150,7 +150,7 @@ PovValue PovScene::unary() {
   const bool negates = peek().is_sign("-");
   if (!negates && !peek().is_sign("!")) return suffixed();
   const PovToken sign = take();
-  if (++depth_ > most_depth)
+  if (++depth_ > most_brackets)
     throw Failure(sign.place, "too many signs stand in a row", ErrorCode::limit);
   PovValue value = unary();
   --depth_;
@@ -375,7 +375,7 @@ PovArray PovScene::array_of(const std::vector<std::size_t>& sizes, std::size_t d
 }
 
 void PovScene::fill(PovArray& elements) {
-  if (++depth_ > most_depth)
+  if (++depth_ > most_brackets)
     throw Failure(place(), "brackets lie too deep in one another", ErrorCode::limit);
   expect("{", "before the elements of an array");
   for (std::size_t i = 0; !take_sign("}"); ++i) {

@@ -76,29 +76,29 @@ class PovScene : private PovStream {
   bool is_object(const PovToken& token) const;
   PovObject object();
   PovObject primitive(const std::string& type);
-  PovObject combination(const std::string& type, const Place& place);
+  PovObject combination(const std::string& type, const Place& at);
   void modifiers(PovObject& object, const std::function<bool(const std::string&)>& own);
   bool transform_word(PovObject& object, const std::string& word);
   std::optional<Matrix> transform(const std::string& word);
   Matrix transform_block();
   void unknown_word(const std::string& where);
   // pov_shapes.cpp
-  SharedSolid shape(const std::string& type, const Place& place);
+  SharedSolid shape(const std::string& type, const Place& at);
   SharedSolid sphere();
   SharedSolid box();
-  SharedSolid cone(bool is_cylinder, const Place& place);
+  SharedSolid cone(bool is_cylinder, const Place& at);
   SharedSolid blob();
   SharedSolid quadric();
   /// Takes a word that says how points are joined, if it is next.
   bool take_spline(Spline& spline);
-  SharedSolid prism(const Place& place);
-  SharedSolid lathe(const Place& place, bool is_sor);
+  SharedSolid prism(const Place& at);
+  SharedSolid lathe(const Place& at, bool is_sor);
   /// Reads three corners. Those of a smooth triangle have normals behind them.
   std::array<Vec3, 3> corners(bool is_smooth);
   SharedSolid triangle(bool is_smooth);
   SharedSolid mesh();
-  SharedSolid mesh2(const Place& place);
-  SharedSolid text_object(const Place& place);
+  SharedSolid mesh2(const Place& at);
+  SharedSolid text_object(const Place& at);
   void comma() { take_sign(","); }
 
   // pov_textures.cpp

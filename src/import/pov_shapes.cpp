@@ -11,7 +11,7 @@ namespace crt::importing {
 namespace {
 
 /// x and z of a prism are x and y of a profile, which is drawn out along y.
-constexpr const char* upright = "matrix [[1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0]]";
+constexpr const char* upright_in_pov = "matrix [[1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0]]";
 
 struct Point {
   double x = 0;
@@ -285,7 +285,7 @@ SharedSolid PovScene::prism(const Place& at) {
   for (const std::vector<Point>& contour : contours_of(points, spline))
     contours.push_back(list_text(corners_of(contour, spline)));
   if (contours.empty() || low == high) return nullptr;
-  std::vector<std::string> changes{upright};
+  std::vector<std::string> changes{upright_in_pov};
   if (low != 0) changes.push_back("translate " + vector_text({0, low, 0}));
   return make_changed(
       make_object("Extrusion",

@@ -79,7 +79,7 @@ void PovScene::read_texture(PovTexture& texture) {
       take();
       texture = *known;
       texture_name_ = token.text;
-    } else if (value && value->get<PovUnknown>()) {
+    } else if ((value && value->get<PovUnknown>()) || token.is_word("tile2")) {
       take();
     } else if (pov_pattern(token.text) || token.is_word("tiles")) {
       take();
@@ -91,8 +91,6 @@ void PovScene::read_texture(PovTexture& texture) {
     } else if (token.is_word("texture")) {
       take();
       read_texture(parts.emplace_back(default_));
-    } else if (token.is_word("tile2")) {
-      take();
     } else if (!texture_word(ignored, texture, token.text)) {
       const auto matrix = transform(token.text);
       if (!matrix) unknown_word("a texture");

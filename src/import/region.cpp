@@ -169,7 +169,7 @@ Region oriented(Region contours) {
 }
 
 Region united(const std::vector<Region>& regions) {
-  const Region all = joined(regions);
+  Region all = joined(regions);
   if (all.empty()) return {};
   // A lone region is what it is.
   if (static_cast<std::size_t>(std::count_if(regions.begin(), regions.end(), is_empty)) + 1 ==

@@ -12,7 +12,7 @@ namespace crt::importing {
 
 namespace {
 
-constexpr std::size_t most_of_line = 90;  // columns of what stands on one line
+constexpr std::size_t most_columns = 90;  // columns of what stands on one line
 constexpr std::size_t worth_a_name = 48;  // columns of a lone object that is used again
 constexpr int most_depth_of_expression = 6;
 constexpr std::size_t most_bytes = std::size_t{60} << 20;
@@ -69,10 +69,10 @@ std::string object_text(const Solid& solid) {
   std::string line = solid.type + " {";
   for (const std::string& attribute : solid.texts) line += " " + attribute;
   line += " }";
-  if (line.size() <= most_of_line) return line;
+  if (line.size() <= most_columns) return line;
   std::string lines = solid.type + " {\n";
   for (const std::string& attribute : solid.texts)
-    lines += "    " + indented_text(broken(attribute, most_of_line - 4), 4) + "\n";
+    lines += "    " + indented_text(broken(attribute, most_columns - 4), 4) + "\n";
   return lines + "}";
 }
 
@@ -116,11 +116,11 @@ std::string indented_text(const std::string& text, int columns) {
 }
 
 std::string ScriptWriter::free_name(const std::string& wish) {
-  const std::string word = word_of(wish);
+  std::string word = word_of(wish);
   if (names_.insert(word).second) return word;
   const std::string stem = word.back() >= '0' && word.back() <= '9' ? word + "x" : word;
   for (int& number = next_.try_emplace(stem, 1).first->second;;) {
-    const std::string name = stem + text::format("{}", ++number);
+    std::string name = stem + text::format("{}", ++number);
     if (names_.insert(name).second) return name;
   }
 }
@@ -145,7 +145,7 @@ std::string ScriptWriter::materials_of(std::string_view text) const {
   for (std::size_t begin = 0; begin < materials_.size();) {
     const std::size_t end = materials_.find('\n', begin) + 1;
     const std::string_view line = std::string_view(materials_).substr(begin, end - begin);
-    if (used.count(line.substr(0, line.find(' '))) > 0) materials += line;
+    if (used.contains(line.substr(0, line.find(' ')))) materials += line;
     begin = end;
   }
   return materials;
@@ -228,7 +228,7 @@ ScriptWriter::Written ScriptWriter::combined(const Solid& solid, const char* sig
     is_short = is_short && is_one_line(parts.back().text);
     depth = std::max(depth, parts.back().depth + 1);
   }
-  is_short = is_short && columns <= most_of_line;
+  is_short = is_short && columns <= most_columns;
   if (*sign == '+' && !is_short) {
     std::string text = "sum([\n";
     for (const Written& part : parts)

@@ -116,6 +116,7 @@ SharedSolid make_polyhedron(const Faces& faces) {
   sides.reserve(faces.faces.size());
   for (const std::vector<std::uint32_t>& face : faces.faces) {
     std::vector<std::string> corners;
+    corners.reserve(face.size());
     for (const std::uint32_t corner : face) corners.push_back(text::format("{}", corner));
     sides.push_back(list_text(corners));
   }
