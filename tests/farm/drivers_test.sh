@@ -38,7 +38,8 @@ sed 's/^Settings {/Settings { frames -> 3/' film.crt >short.crt
 "$crt" farm submit short --local --processes 2 -q
 "$crt" render short.crt --frames 2-2 -o 'alone_##.png' --reproducible -q
 cmp alone_02.png short/short_0002.png
-[[ $(ls short/*.png | wc -l) == 3 ]]
+pictures=(short/*.png)
+[[ ${#pictures[@]} == 3 ]]
 
 # A job that is there is not done again, and one whose part is damaged is mended.
 cp -r local cut

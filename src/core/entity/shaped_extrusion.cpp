@@ -48,7 +48,7 @@ Field distance_across(const ShapedExtrusion& solid) {
 }
 
 Field field_of(const ShapedExtrusion& solid) {
-  const Field across = distance_across(solid);
+  Field across = distance_across(solid);
   const double half = 0.5 * solid.height;
   const Field beyond_ends = abs(Field::z() - half) - half;
   if (solid.bevel > 0) return max(across, across + beyond_ends + solid.bevel);
