@@ -48,7 +48,8 @@ std::string complaint(const std::string& part) {
   REQUIRE(run.errors().size() == 1);
   const crt::Diagnostic error = run.errors()[0];
   REQUIRE_FALSE(error.calls.empty());
-  return fmt::format("{}: {}", error.calls.back().second.line - scripts.size(), error.message);
+  return fmt::format("{}: {}", error.calls.back().second.line - static_cast<int>(scripts.size()),
+                     error.message);
 }
 
 /// Says how much the entities of a Scene overlap, all pairs together.
@@ -131,10 +132,10 @@ TEST_CASE("beams have the areas of their catalogue") {
       {"L 70x7", 9.40},   {"L 80x8", 12.3},   {"L 80x10", 15.1},  {"L 100x8", 15.5},
       {"L 100x10", 19.2}, {"L 100x12", 22.7}};
   CHECK(number("len(keys(beamSizes))") == static_cast<double>(areas.size()));
-  for (const auto& [name, area] : areas) {
-    CAPTURE(name);
-    CHECK(number(fmt::format("volume(beam(\"{}\", 10), 1e-4)", name)) ==
-          doctest::Approx(1000 * area).epsilon(0.005));
+  for (const auto& beam : areas) {
+    CAPTURE(beam.first);
+    CHECK(number(fmt::format("volume(beam(\"{}\", 10), 1e-4)", beam.first)) ==
+          doctest::Approx(1000 * beam.second).epsilon(0.005));
   }
   CHECK(number("volume(beam(tubeContour(50, 4), 10), 1e-4)") ==
         doctest::Approx(std::numbers::pi * (625 - 441) * 10).epsilon(1e-4));
@@ -146,8 +147,8 @@ TEST_CASE("beams have the areas of their catalogue") {
 TEST_CASE("a gear's tooth is as thick at the pitch circle as its backlash leaves it") {
   for (const auto& [teeth, pressure] : std::vector<std::pair<int, int>>{
            {17, 20}, {18, 20}, {30, 20}, {100, 20}, {12, 25}, {40, 14}}) {
-    CAPTURE(teeth);
     const double radius = teeth;  // of a module of 2
+    CAPTURE(radius);
     const double half_angle = (std::numbers::pi - 0.1) / 2 / radius;
     const double x = radius * std::cos(half_angle);
     const std::string chord = fmt::format(
@@ -186,8 +187,8 @@ TEST_CASE("bearings, washers and pulleys have the sizes of their standards") {
   };
   for (const auto& [name, bore, outside, width] : std::vector<std::array<int, 4>>{
            {608, 8, 22, 7}, {6000, 10, 26, 8}, {6010, 50, 80, 16}, {6206, 30, 62, 16}}) {
-    CAPTURE(name);
     const std::string bearing = fmt::format("bearing({})", name);
+    CAPTURE(bearing);
     CHECK(holds(bearing, outside / 2.0 - 0.001, 2));
     CHECK_FALSE(holds(bearing, outside / 2.0 + 0.001, 2));
     CHECK(holds(bearing, bore / 2.0 + 0.001, 2));

@@ -43,12 +43,12 @@ Scene two_balls(const SharedMaterial& left, const SharedMaterial& right) {
 
 const SharedMaterial red(Material{.color = Color{0.8, 0.05, 0.05}});
 const SharedMaterial green(Material{.color = Color{0.05, 0.8, 0.05}});
-const SharedMaterial mirror(PrincipledMaterial{.metallic = 1, .roughness = 0.1});
+const SharedMaterial silver(PrincipledMaterial{.metallic = 1, .roughness = 0.1});
 
 }  // namespace
 
 TEST_CASE("what a mode shows does not depend on the scene's lights, sky and exposure") {
-  const Scene scene = two_balls(red, mirror);
+  const Scene scene = two_balls(red, silver);
   Scene other = scene;
   other.lights = {SphereLight{.color = {100, 100, 100}}, EnvironmentLight{}};
   other.background = SolidBackground{{0, 0, 9}};
@@ -65,8 +65,8 @@ TEST_CASE("what a mode shows does not depend on the scene's lights, sky and expo
 }
 
 TEST_CASE("clay is grey whatever things are made of, and not black where no sky is seen") {
-  const Image image = shown(two_balls(red, mirror), ViewMode::clay);
-  CHECK(same_pixels(image, shown(two_balls(mirror, green), ViewMode::clay)));
+  const Image image = shown(two_balls(red, silver), ViewMode::clay);
+  CHECK(same_pixels(image, shown(two_balls(silver, green), ViewMode::clay)));
   for (const int x : {10, 37}) {
     const Color ball = image.at(x, 12);
     CHECK(ball.r == ball.g);
@@ -115,7 +115,7 @@ TEST_CASE("what gives off light is seen, and lights materials no more if it is s
 }
 
 TEST_CASE("a metal mirrors the studio's lights, brighter than white and not all the same") {
-  const Image image = shown(two_balls(mirror, mirror), ViewMode::material);
+  const Image image = shown(two_balls(silver, silver), ViewMode::material);
   double darkest = 1e9;
   double brightest = 0;
   for (int y = 4; y < 20; ++y) {
@@ -141,11 +141,11 @@ TEST_CASE("cuts by a section stay orange in clay") {
 }
 
 TEST_CASE("the light of modes faces what the scene's camera looks at") {
-  Scene scene = two_balls(red, mirror);
+  Scene scene = two_balls(red, silver);
   Scene turned = scene;  // by a quarter about y
   turned.camera.position = {-6, 0, 0};
   turned.entities = {Sphere{.center = {0, 0, 1.2}, .material = red},
-                     Sphere{.center = {0, 0, -1.2}, .material = mirror}};
+                     Sphere{.center = {0, 0, -1.2}, .material = silver}};
   for (const int compat : {0, compat_2015}) {
     scene.settings.compat = turned.settings.compat = compat;
     for (const ViewMode mode : modes) {
