@@ -1,7 +1,10 @@
 // The modules of OpenSCAD become solids and regions.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <crt/entity.hpp>
+#include <crt/measure.hpp>
 #include <functional>
 #include <optional>
 #include <string>
@@ -90,11 +93,23 @@ class OpenScad {
   /// Returns the solid of a node that has none within it.
   SharedSolid leaf(const CsgNode& node, bool has_color);
 
+  /// Measures something of a solid, which all together takes no longer than some seconds.
+  template <class Measure>
+  auto timed(const Measure& measure) {
+    constexpr double shortest = 0.05;
+    const auto begin = std::chrono::steady_clock::now();
+    auto result = measure(MeasureOptions{.seconds = std::max(shortest, seconds_left_)});
+    seconds_left_ -=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+  }
+
   Notes& notes_;
   ScriptWriter& writer_;
   const ImportOptions& options_;
   std::string name_;
   bool has_plain_ = false;
+  double seconds_left_ = 3;  ///< for what is measured
   std::size_t facets_ = 0;
   std::size_t regions_ = 0;
 

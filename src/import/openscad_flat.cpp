@@ -263,9 +263,13 @@ Region OpenScad::projection(const CsgNode& node) {
   const BoundingBox box = bounding_box(*entity);
   const Vec3 size = box.upper - box.lower;
   const double deviation = 1e-6 * std::max({size.x, size.y, size.z});
-  const MeasureOptions options{.seconds = 20};
-  Section cut = section(*entity, {0, 0, -1}, 0, deviation, options);
-  if (cut.empty()) cut = section(*entity, {0, 0, 1}, 0, deviation, options);
+  const auto cut_towards = [&](double z) {
+    return timed([&](const MeasureOptions& options) {
+      return section(*entity, {0, 0, z}, 0, deviation, options);
+    });
+  };
+  Section cut = cut_towards(-1);
+  if (cut.empty()) cut = cut_towards(1);
   if (!(cut.deviation <= deviation))
     notes_.lost(node.place, "this section is not known well enough");
   return region_of(cut);

@@ -292,7 +292,10 @@ SharedSolid OpenScad::resized(const CsgNode& node, bool has_color) {
       notes_.lost(node.place, "this resize() cannot be made, as its solid cannot");
       return nullptr;
     }
-    const BoundingBox box = tight_bounding_box(*entity, {.relative_width = 1e-9, .seconds = 20});
+    const BoundingBox box = timed([&](MeasureOptions options) {
+      options.relative_width = 1e-9;
+      return tight_bounding_box(*entity, options);
+    });
     const Vec3 factors = resize_factors(node, box.upper - box.lower);
     Matrix matrix{};
     for (std::size_t axis = 0; axis < 3; ++axis)
