@@ -27,13 +27,12 @@ Vec2 place_in_plane(const ProfilePoint& corner) {
   return {corner.x, corner.y};
 }
 
-/// Returns the tangent of a quarter of the angle from one direction to another, in (-1, 1]. If they
-/// are opposite, it is 1.
+/// Returns the tangent of a quarter of the angle from one direction to another, in [-1, 1].
 double bulge_of_turn(const Vec2& from, const Vec2& to) {
   const double cosine = std::clamp(dot(from, to), -1.0, 1.0);
   const double half_sine = std::copysign(std::sqrt(0.5 - 0.5 * cosine), cross(from, to));
   const double half_cosine = std::sqrt(0.5 + 0.5 * cosine);
-  return half_cosine == 0 ? 1 : half_sine / (1 + half_cosine);
+  return half_sine / (1 + half_cosine);
 }
 
 /// A ContourStep leads from one corner to the next, straight or by an arc of a quarter of a circle

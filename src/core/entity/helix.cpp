@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/entity/cosine_to_helix.hpp"
 #include "core/entity/placed.hpp"
+#include "core/entity/turns.hpp"
 #include "core/geometry/angles.hpp"
 #include "core/geometry/check_fields.hpp"
 #include "crt/field.hpp"
@@ -29,14 +29,12 @@ double cosine_of_rise(const Helix& helix) {
 
 void check_helix(const Helix& helix) {
   core::check_fields(helix);
-  constexpr double most_turns = 1e4;
   constexpr double share = 0.9;
   if (!(helix.thickness <= share * helix.radius))
     core::reject("thickness", "must be at most 0.9 of the radius");
   if (!(2 * helix.thickness <= share * helix.pitch * cosine_of_rise(helix)))
     core::reject("pitch", "must leave a tenth of it between the turns");
-  if (!(glm::length(helix.to - helix.from) <= most_turns * helix.pitch))
-    core::reject("pitch", "must be at least a 10000th of the length");
+  core::check_turns(glm::length(helix.to - helix.from), helix.pitch);
 }
 
 /// Returns the square of the angle whose cosine is 1 - w.

@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/entity/cosine_to_helix.hpp"
 #include "core/entity/placed.hpp"
+#include "core/entity/turns.hpp"
 #include "core/geometry/angles.hpp"
 #include "core/geometry/check_fields.hpp"
 #include "crt/field.hpp"
@@ -22,12 +22,10 @@ namespace {
 
 void check(const Thread& thread) {
   core::check_fields(thread);
-  constexpr double most_turns = 1e4;
   constexpr double most_of_diameter = 0.9;
   if (!(thread.pitch <= most_of_diameter * thread.diameter))
     core::reject("pitch", "must be at most 0.9 diameters");
-  if (!(glm::length(thread.to - thread.from) <= most_turns * thread.pitch))
-    core::reject("pitch", "must be at least a 10000th of the length");
+  core::check_turns(glm::length(thread.to - thread.from), thread.pitch);
 }
 
 /// Returns the thread along z in units of its pitch. Angles are from x towards y.

@@ -29,10 +29,9 @@ Interval common(const Interval& a, const Interval& b) {
   return both.lo <= both.hi ? both : a;
 }
 
-/// Returns the directions of an arc's piece or line at both ends.
-std::array<Vec2, 2> end_directions(const PlanePiece& piece) {
-  return {quarter_turned(piece.normal_at(piece.from())),
-          quarter_turned(piece.normal_at(piece.to()))};
+/// Returns the direction in which a piece goes at a point of it.
+Vec2 direction_at(const PlanePiece& piece, const Vec2& point) {
+  return quarter_turned(piece.normal_at(point));
 }
 
 }  // namespace
@@ -123,8 +122,8 @@ void ProfileDistance::finish_contour(std::size_t first, std::size_t end) {
     const Directions before = between(begin_normal, middle_normal);
     const Directions after = between(middle_normal, end_normal);
     wall.normals = {hull(before.x, after.x), hull(before.y, after.y)};
-    wall.end_direction = end_directions(wall.piece)[1];
-    wall.next_direction = end_directions(next.piece)[0];
+    wall.end_direction = direction_at(wall.piece, wall.piece.to());
+    wall.next_direction = direction_at(next.piece, next.piece.from());
     const Vec2 next_normal = sign * next.piece.normal_at(next.piece.from());
     constexpr double smooth = 0x1p-44;
     wall.is_smooth =

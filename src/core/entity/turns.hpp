@@ -3,9 +3,16 @@
 
 #include <numbers>
 
+#include "core/geometry/checks.hpp"
 #include "crt/field.hpp"
 
 namespace crt::core {
+
+/// Checks that a length has at most 10000 turns. Throws Error (invalid_argument).
+inline void check_turns(double length, double pitch) {
+  constexpr double most_turns = 1e4;
+  if (!(length <= most_turns * pitch)) reject("pitch", "must be at least a 10000th of the length");
+}
 
 /// Returns the distance from the z axis.
 inline Field distance_from_axis() {
